@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "converter/tables/direction_sampling.hpp"
 #include "converter/tables/table_filling.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
@@ -29,8 +29,8 @@ void require_plan_of_body(const std::filesystem::path& folder, const CasePlan& p
     }
 }
 
-/// Brings the cases to the directions that the table asks for, where they were solved for others that the
-/// body's symmetry makes alike: but not where a case of that flow and purpose is there already.
+/// Transforms cases that were solved in other directions to the equivalent ones that the table requires by
+/// the body's symmetry, unless a case of that flow and purpose exists already.
 void bring_to_required(const Symmetry& symmetry, CasePlan& plan, std::vector<SolvedCase>& cases) {
     for (PlannedCase& planned : plan.cases) {
         const Matrix3d element = element_to_required(symmetry, planned.direction);
@@ -76,7 +76,7 @@ LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, Conversio
     return tables;
 }
 
-// Falls that failed are left out, with the cases.
+// Reads the solved falls; failed ones are left out.
 std::vector<FallRecord> solved_falls(const std::filesystem::path& folder, const CasePlan& plan,
                                      std::vector<LeftOutCase>& left_out) {
     std::vector<FallRecord> records;

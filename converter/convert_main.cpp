@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/case_plan.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "converter/cases/load_fluctuations.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/convert.hpp"
-#include "converter/falls/identification_report.hpp"
+#include "converter/falls/fall_identification.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
@@ -27,7 +27,7 @@ namespace {
 
 using CaseProgress = std::function<void(std::size_t done, std::size_t total)>;
 
-/// What people look at first in one solved case. Coefficients on A = pi L^2 / 4, the moment's also on L.
+/// The coefficients of one solved case, relative to A = pi L^2/4, the moment's also to L.
 struct Summary {
     double drag;
     double drag_error;
@@ -37,12 +37,13 @@ struct Summary {
     double moment_error;
 };
 
-/// The standard error of a vector's component along `unit`, its components' errors taken as independent.
+/// Returns the standard error of a vector's component along `unit`; its components' errors are taken as
+/// independent.
 double error_along(const Vector3d& error, const Vector3d& unit) {
     return error.cwiseProduct(unit).norm();
 }
 
-/// The standard error of a vector's length; at zero length that of its largest component.
+/// Returns the standard error of a vector's length; at zero length the largest of its components'.
 double error_of_length(const Vector3d& error, const Vector3d& value) {
     return value.norm() > 0.0 ? error_along(error, value.normalized()) : error.maxCoeff();
 }
@@ -110,7 +111,7 @@ nlohmann::json conversion_as_json(const Conversion& conversion, const std::strin
             {"left_out", left_out}};
 }
 
-/// "0.4231 +- 0.002", with as many digits as the error deserves.
+/// Returns "0.4231 +- 0.002", with the digits that the error leaves significant.
 std::string with_error(double value, double error) {
     const double smallest = error > 0.0 ? error : 1e-3 * std::abs(value);
     const int decimals =
@@ -154,7 +155,7 @@ void print_cases(const Conversion& conversion) {
     print_errors(conversion);
 }
 
-/// The folder's solved cases as a table of numbers.
+/// Writes the folder's solved cases as a CSV table.
 nlohmann::json write_samples(const std::string& cases, const std::string& output, bool print,
                              const CaseProgress& progress) {
     const CasePlan plan = read_case_plan(cases);
@@ -169,9 +170,9 @@ nlohmann::json write_samples(const std::string& cases, const std::string& output
     return {{"output", output}, {"cases", reduction.cases.size()}, {"left_out", left_out}};
 }
 
-/// The cases in a folder that were solved in time, or the folder itself where it is a case.
+/// Returns the cases in a folder that were solved in time, or the folder itself where it is a case.
 std::vector<std::filesystem::path> cases_in_time(const std::filesystem::path& folder) {
-    // A case by itself is linked to the mesh beside it.
+    // The link of a single case to the mesh beside it leads out of its folder.
     const bool is_case = std::filesystem::exists(folder / "parameters");
     require_links_within(is_case ? folder / "postProcessing" : folder);
     if (is_case) return {folder};
@@ -190,7 +191,7 @@ std::vector<std::filesystem::path> cases_in_time(const std::filesystem::path& fo
     return cases;
 }
 
-/// What the loads of cases that were solved in time do about their means.
+/// Writes the fluctuations of the loads of cases that were solved in time.
 nlohmann::json write_fluctuations(const std::string& folder, const std::string& output,
                                   const std::optional<double>& begin, bool print,
                                   const CaseProgress& progress) {
@@ -255,7 +256,7 @@ int run(int argc, const char* const* argv) {
     bool fluctuations = false;
     std::optional<double> begin;
     Arguments arguments("samara convert",
-                        "Turns solved OpenFOAM cases into the load and turbulence tables of a body file");
+                        "Converts solved OpenFOAM cases to the load and turbulence tables of a body file");
     arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
     arguments.required_output_option(
         "-o,--output", output, "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");

@@ -1,5 +1,5 @@
-// The program samara-identify: dynamic coefficients from solved free falls, anew or without some of their
-// terms.
+// The program samara-identify: identifies dynamic coefficients from solved free falls, if wanted without some
+// of their terms.
 
 #include <sstream>
 #include <string>
@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/falls/fall_identification.hpp"
-#include "converter/falls/identification_report.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
@@ -63,9 +62,9 @@ nlohmann::json identify(const IdentifyOptions& options, bool leaves_stretch_out,
     json["held"] = nlohmann::json::array();
     if (!quiet) print_result("{}", identification_as_text(identification));
     for (const FallRecord& record : records_of(options.hold)) {
-        const FlownFall flown = fly_fall(body, record);
-        json["held"].push_back(flown_fall_as_json(flown));
-        if (!quiet) print_result("{}", flown_fall_as_text(flown));
+        const SimulatedFall fall = simulate_fall(body, record);
+        json["held"].push_back(simulated_fall_as_json(fall));
+        if (!quiet) print_result("{}", simulated_fall_as_text(fall));
     }
     if (!options.output.empty()) write_body_file(options.output, body);
     return json;
@@ -83,14 +82,14 @@ int run(int argc, const char* const* argv) {
     arguments.option(
         "--without", options.without,
         fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));
-    arguments.option("--without-stretch", options.without_stretch,
-                     fmt::format("leave out one of the {} stretches of each fall, to see what chance does",
-                                 identification_stretches),
-                     0, identification_stretches - 1);
-    arguments.option("--hold", options.hold,
-                     "folders of other falls to hold the flown body against, by commas");
+    arguments.option(
+        "--without-stretch", options.without_stretch,
+        fmt::format("leave out one of the {} stretches of each fall, to see the effect of chance",
+                    identification_stretches),
+        0, identification_stretches - 1);
+    arguments.option("--hold", options.hold, "folders of other falls to compare the result with, by commas");
     arguments.footer(
-        "samara bake does this at the qualities standard and high; this program does it anew, from other "
+        "samara bake does this at the qualities standard and high; this program repeats it, from other "
         "falls, or\n"
         "without some of the terms (docs/studies/falls).\n");
     return run_program(argc, argv, arguments, [&] {

@@ -1,4 +1,4 @@
-// The program samara-check-tables: a body's tables against solved cases that they were not made from.
+// The program samara-check-tables: compares a body's tables with solved cases that they were not made from.
 
 #include <string>
 
@@ -45,7 +45,7 @@ void print_row(const char* name, const QuantityCheck& check) {
 }
 
 void print_check(const TableCheck& check) {
-    print_result("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "moving along", "Reynolds", "|F|",
+    print_result("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "direction of motion", "Reynolds", "|F|",
                  "off by", "stated");
     for (const CheckedCase& one : check.cases) {
         print_result("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.0f} {:9.4f} {:9.4f} {:9.4f}\n", one.name,
@@ -65,7 +65,7 @@ int run(int argc, const char* const* argv) {
     std::string body_file;
     std::string cases;
     Arguments arguments("samara check-tables",
-                        "Holds a body's tables against solved cases that they were not made from");
+                        "Compares a body's tables with solved cases that they were not made from");
     arguments.positional("BODY", body_file, "NAME.body.h5 with tables");
     arguments.positional(
         "CASES", cases, "a table of cases (.csv), of 'samara bake --probes' or 'samara convert -o NAME.csv'");

@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/wind/foam_wind.hpp"
-#include "converter/wind/vdb_wind.hpp"
+#include "converter/wind/wind_readers.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"

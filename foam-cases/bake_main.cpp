@@ -11,8 +11,7 @@
 
 #include "foam-cases/bake/bake.hpp"
 #include "foam-cases/bake/bake_report.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/scene/scene_requests.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
@@ -36,8 +35,8 @@ struct BakeOptions {
     int ranks = 1;
     std::string cluster;
     std::string quality = "preview";
-    std::string loads;  ///< empty: by the closure that is usual at the quality
-    std::string falls;  ///< empty: by the closure of the loads
+    std::string loads;  ///< empty: the default closure of the quality
+    std::string falls;  ///< empty: the closure of the loads
     double fall_step = 1.0;
     std::string inflow = "still";
     int probes = 0;
@@ -93,7 +92,7 @@ BakeRequest request_for_shape(const BakeOptions& options, bool density_is_given)
     request.scale = options.scale;
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
-    // A body file may have a mass of its own.
+    // A body file may have its own mass.
     if (density_is_given || !is_body_file_name(options.input) || !read_body_file(options.input).mass) {
         request.mass.density = options.density;
     }
@@ -218,7 +217,7 @@ int run(int argc, const char* const* argv) {
                      "samara validate, but for kEpsilon's beside loads by kEpsilon. "
                      "none: no falls, and so the coefficients that bodies have in common");
     arguments.option("--fall-step", options.fall_step,
-                     "over the step that a fall gets of itself: 0.5 for a fall whose momenta do not balance",
+                     "relative to the automatic step of a fall: 0.5 for a fall whose momenta do not balance",
                      0.05, 4.0);
     arguments.choice("--inflow", options.inflow, {"still", "paper"},
                      "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");

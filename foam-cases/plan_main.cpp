@@ -1,4 +1,4 @@
-// The program samara-plan: what a scene needs to be baked.
+// The program samara-plan: plans the bake of a scene.
 
 #include <filesystem>
 #include <string>
@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "foam-cases/bake/bake.hpp"
 #include "foam-cases/bake/bake_report.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
-#include "foam-cases/scene/scene_requests.hpp"
 #include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/analysis/advice/model_advice.hpp"
 #include "samara/commands/shared/arguments.hpp"
@@ -45,7 +45,7 @@ nlohmann::json visits_as_json(const std::vector<VisitedDirection>& places) {
 }
 
 void print_places(const std::vector<VisitedDirection>& places) {
-    print_result("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "moving along (map axes)", "time", "load",
+    print_result("{:>26} {:>6} {:>6} {:>20} {:>7}\n", "direction (map axes)", "time", "load",
                  "Reynolds numbers", "images");
     constexpr std::size_t most_rows = 20;
     for (std::size_t i = 0; i < std::min(places.size(), most_rows); ++i) {
@@ -67,7 +67,7 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     json["name"] = request.name;
     if (!preparation.scene_plan) {
         if (!quiet)
-            print_result("{}: asks for no tables: mesh and Kirchhoff tensor alone, no CFD\n", request.name);
+            print_result("{}: asks for no tables: only mesh and Kirchhoff tensor, no CFD\n", request.name);
         return json;
     }
     const ScenePlan& plan = *preparation.scene_plan;
@@ -82,7 +82,7 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     if (quiet) return json;
     const GridCost all = whole_grid(plan, false);
     const GridCost wedge = whole_grid(plan, true);
-    print_result("{}: with guessed loads it is {} ({:.0f} % of the falls)\n", request.name,
+    print_result("{}: with estimated loads it is {} ({:.0f} % of the falls)\n", request.name,
                  name_of(regimes.commonest()), 100.0 * regimes.share(regimes.commonest()));
     print_places(places);
     print_result(
@@ -95,14 +95,14 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     return json;
 }
 
-/// The body with which the scene flies: the baked one where there is one.
+/// Returns the body for the model advice: the baked one where there is one.
 LoadedBody as_baked(const BakeRequest& request, const BakePreparation& preparation, bool has_bodies) {
     if (has_bodies && std::filesystem::exists(request.output)) return {read_body_file(request.output), ""};
     return {preparation.body, ""};
 }
 
 ModelAdvice advised(const Scene& scene, const std::vector<LoadedBody>& loaded, double tolerance) {
-    Progress progress("judging the physics", "flights");
+    Progress progress("judging the physics", "simulations");
     AdviceOptions options;
     options.tolerance = tolerance;
     return advise_models(scene, loaded, options,
@@ -172,8 +172,8 @@ int main(int argc, char** argv) {
         "relative, of the descent speed: of the bake that is planned, and of what may be left out", 1e-4,
         10.0);
     arguments.footer(
-        "Flies the scene 16 times with its Kirchhoff tensor and guessed loads. The bake goes on from there: "
-        "it\n"
-        "flies again with what each round of cases gave ('samara bake SCENE').\n");
+        "Simulates the scene 16 times with its Kirchhoff tensor and estimated loads. The bake continues from "
+        "there: it\n"
+        "simulates again with the tables of each round of cases ('samara bake SCENE').\n");
     return run_program(argc, argv, arguments, [&] { return run(options, arguments); });
 }

@@ -1,4 +1,4 @@
-// The program samara-validate: a scene by full CFD, as a motion file.
+// The program samara-validate: solves a scene by full CFD and writes a motion file.
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "foam-cases/falls/validate.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
@@ -58,7 +58,8 @@ void print_plan(const BakePlan& plan) {
                  plan.cpu_seconds, plan.falls.size() == 1 ? "" : " in all");
 }
 
-/// The one or two motion files of an option, which are refused before hours are spent.
+/// Returns the one or two motion files of an option. Throws Error where one cannot be read, before the long
+/// work.
 std::vector<std::filesystem::path> motions_of(const char* option, const std::string& words) {
     std::vector<std::filesystem::path> files;
     std::stringstream stream(words);
@@ -71,13 +72,13 @@ std::vector<std::filesystem::path> motions_of(const char* option, const std::str
 void print_warnings(const ValidationResult& result) {
     const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
     const FallBalance balance = result.worst_balance();
-    if (is_doubtful(balance)) {
+    if (is_unbalanced(balance)) {
         note(fmt::format(
-            "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is doubtful; "
+            "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is uncertain; "
             "halve its step with --step",
             100.0 * balance.force, 100.0 * balance.moment));
     }
-    if (result.largest_courant_number() > doubtful_courant_number) {
+    if (result.largest_courant_number() > largest_good_courant_number) {
         note(fmt::format(
             "the fluid passes up to {:.1f} cells in a step: the fall may be smeared; halve its step with "
             "--step",
@@ -86,7 +87,7 @@ void print_warnings(const ValidationResult& result) {
     for (std::size_t copy = 0; copy < result.solutions.size(); ++copy) {
         const std::vector<std::string>& attempts = result.solutions[copy].attempts;
         if (attempts.size() < 2) continue;
-        note(fmt::format("the fall{} blew up as planned and was solved with {}",
+        note(fmt::format("the fall{} diverged as planned and was solved with {}",
                          result.solutions.size() == 1 ? "" : fmt::format(" of copy {}", copy),
                          attempts.back()));
     }
@@ -103,16 +104,16 @@ void make_folder_of(const std::filesystem::path& file) {
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
 }
 
-/// Writes a motion that is solved already, with its uncertainties.
+/// Writes a solved motion with new uncertainties.
 nlohmann::json judge_again(const ValidateOptions& options, bool quiet) {
     const OtherSolutions beside = solutions_beside(options);
     if (options.dry_run)
         throw Error(fmt::format("{}: is a motion, solved already; nothing is planned", options.scene));
     if (beside.empty()) {
-        throw Error(fmt::format(
-            "{}: is a motion, solved already; give what it is to be held beside, with --other-mesh "
-            "or --other-closure",
-            options.scene));
+        throw Error(
+            fmt::format("{}: is a motion, solved already; give a motion to compare it with, by --other-mesh "
+                        "or --other-closure",
+                        options.scene));
     }
     const Motion motion = with_uncertainties(options.scene, beside);
     make_folder_of(options.output);
@@ -157,7 +158,7 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     const FallBalance balance = result.worst_balance();
     json["time_step"] = first.time_step * result.plan.falls.front().time_unit();
     json["cells"] = first.cells;
-    // Of the fall that took the most.
+    // The attempts of the fall that needed most.
     json["attempts"] = std::ranges::max(result.solutions, {}, [](const FallSolution& solution) {
                            return solution.attempts.size();
                        }).attempts;
@@ -182,7 +183,7 @@ int run(int argc, const char* const* argv) {
     arguments.positional(
         "SCENE", options.scene,
         "scene file (.toml) of one body, each of whose copies is a fall; or a motion file that is "
-        "solved already, to hold it beside others");
+        "solved already, to compare it with others");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
     arguments.option("--cells", options.cells,
                      "of the mesh, about; with kEpsilon that of 6,000, 20,000, 60,000 or 200,000 that is "
@@ -191,7 +192,7 @@ int run(int argc, const char* const* argv) {
     arguments.option("--closure", options.closure,
                      "above Reynolds number 300: kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES (eddies resolved), "
                      "laminar (none) or kEpsilon");
-    arguments.option("--step", options.step, "over the step that the fall gets of itself", 0.05, 4.0);
+    arguments.option("--step", options.step, "relative to the automatic step of the fall", 0.05, 4.0);
     arguments.option("--fields", options.fields,
                      "keeps the flow so many times a second, for a movie: velocity and pressure in "
                      "NAME.cases/fall_00/postProcessing/fields, which ParaView opens; 0: not",
@@ -200,16 +201,17 @@ int run(int argc, const char* const* argv) {
     arguments.option("--other-mesh", options.other_mesh,
                      "motion file of the same scene on another mesh: what it differs by is written as the "
                      "motion's uncertainty by its mesh, which samara compare reads");
-    arguments.option(
-        "--other-closure", options.other_closure,
-        "the same by another closure; or, A.h5,B.h5, two that differ in the closure alone, on another mesh");
+    arguments.option("--other-closure", options.other_closure,
+                     "like --other-mesh, for another closure; or A.h5,B.h5: two that differ only in the "
+                     "closure, on another mesh");
     arguments.option("--cluster", options.cluster,
                      "a command of Slurm that submits a job: solves the fall as a job there");
     arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
     arguments.footer(
         "The fall, or one for each copy of the body, is solved by OpenFOAM (pimpleFoam, six degrees of "
         "freedom)\nin the folder NAME.cases\n"
-        "beside the output: a plain case that can be looked at. An interrupted fall goes on when the command "
+        "beside the output: a plain case for OpenFOAM and ParaView. An interrupted fall continues when the "
+        "command "
         "is\n"
         "run again. The scene's loads and turbulence are not used, for they are what is solved.\n"
         "Compare with the runtime's motion: samara compare motion.h5 reference.h5\n"

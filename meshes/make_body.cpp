@@ -6,13 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "meshes/checks/joined_parts.hpp"
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/shape_reader.hpp"
-#include "meshes/remeshing/mesh_geometry.hpp"
 #include "meshes/remeshing/remesh.hpp"
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry.hpp"
@@ -49,7 +47,7 @@ Surface in_order(const Surface& surface, int order) {
 
 using ProgressCall = std::function<void(double)>;
 
-// Shares of the time that a million triangles take, up to the end of each stage.
+// Shares of the computing time, measured with a million triangles, up to the end of each stage.
 constexpr double triangles_read = 0.03;
 constexpr double triangles_welded = 0.12;
 constexpr double triangles_checked = 0.45;
@@ -94,7 +92,7 @@ void mesh_triangles(Body& body, const std::filesystem::path& shape, const MeshOp
         body.shape_error = meshed.error;
     }
     body.moments = volume_moments(body.surface);
-    // New triangles lie on the facets of the old ones and cut their corners.
+    // New triangles follow the facets of the old ones and cut off their corners.
     const double tolerance =
         std::max(default_symmetry_tolerance, 2.0 * faceting(original, body.moments.centroid));
     body.symmetry = find_symmetry(body.surface, body.moments, tolerance);
@@ -104,7 +102,7 @@ void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const M
                          const ProgressCall& progress) {
     if (options.flip) {
         throw Error(
-            fmt::format("{}: geometry is turned outwards by itself; leave --flip out", shape.string()));
+            fmt::format("{}: exact geometry is oriented outwards anyway; leave --flip out", shape.string()));
     }
     MeshedShape meshed =
         mesh_geometry(shape, options, [&](double share) { tell(progress, geometry_meshed * share); });

@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
         "--time-limit", options.time_limit,
         "seconds of computing that gmsh and other libraries may take to read the shape and mesh it", 1.0,
         1e9);
-    arguments.flag("--flip", options.flip, "turn every triangle round: for a surface that is inside out");
+    arguments.flag("--flip", options.flip, "reverse every triangle: for a surface that is inside out");
     arguments.footer(
         "The surface must be closed. Triangles are smaller where the body curves and near its edges.\n"
         "Example: samara mesh meshes/shapes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280");

@@ -1,5 +1,3 @@
-#include "converter/cases/case_folder_reduction.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/cases/case_reduction.hpp"
 #include "converter/tables/direction_sampling.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/base/error.hpp"
@@ -17,7 +16,8 @@
 namespace samara {
 namespace {
 
-/// What stands in a folder's failed.json; nothing where there is none. Throws Error where it is damaged.
+/// Returns the reason in a folder's failed.json; nothing where there is none. Throws Error where it is
+/// damaged.
 std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "failed.json";
     if (!std::filesystem::exists(file)) return std::nullopt;
@@ -29,13 +29,13 @@ std::optional<std::string> failure_reason(const std::filesystem::path& folder) {
     }
 }
 
-/// The case whose solution this one needs beside its own; none where it needs none.
+/// Returns the case whose turbulence this one takes; none where it has its own.
 const PlannedCase* turbulence_of(const CasePlan& plan, const PlannedCase& planned) {
     const auto found = std::ranges::find(plan.cases, planned.turbulence_from, &PlannedCase::name);
     return found == plan.cases.end() ? nullptr : &*found;
 }
 
-/// failure_of the case, or of the one that it takes its turbulence from.
+/// Returns failure_of() the case, or of the one that it takes its turbulence from.
 std::optional<std::string> failure_of_either(const std::filesystem::path& folder, const CasePlan& plan,
                                              const PlannedCase& planned) {
     if (std::optional<std::string> reason = failure_of(folder, planned.name, planned.mesh)) return reason;
@@ -105,8 +105,8 @@ bool has_direction(const std::vector<const PlannedCase*>& cases, const Vector3d&
         cases, [&](const PlannedCase* one) { return (one->direction - direction).norm() < tolerance; });
 }
 
-/// A case for each direction of the main Reynolds number: the table's, where it has none that on the mesh
-/// before the last.
+/// Returns a case for each direction of the main Reynolds number: the table's, or where there is none that on
+/// the mesh before the last.
 std::vector<const PlannedCase*> main_cases(const CasePlan& plan) {
     const double main = main_reynolds_number(plan);
     std::vector<const PlannedCase*> cases;
@@ -121,7 +121,7 @@ std::vector<const PlannedCase*> main_cases(const CasePlan& plan) {
     return cases;
 }
 
-/// The first of the directions that the map needs and no case has.
+/// Returns the first direction that the map needs and no case has.
 std::optional<Vector3d> missing_direction(const std::vector<const PlannedCase*>& cases,
                                           const Symmetry& symmetry, int subdivisions) {
     for (const Vector3d& direction : required_directions(symmetry, subdivisions)) {

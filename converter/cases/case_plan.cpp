@@ -19,6 +19,34 @@
 namespace samara {
 namespace {
 
+constexpr std::pair<Closure, std::string_view> closures[] = {
+    {Closure::unsaid, ""},
+    {Closure::laminar, "laminar"},
+    {Closure::k_epsilon, "kEpsilon"},
+    {Closure::realizable_k_epsilon, "realizableKE"},
+    {Closure::rng_k_epsilon, "RNGkEpsilon"},
+    {Closure::launder_sharma_k_epsilon, "LaunderSharmaKE"},
+    {Closure::k_omega, "kOmega"},
+    {Closure::k_omega_sst, "kOmegaSST"},
+    {Closure::k_omega_sst_lm, "kOmegaSSTLM"},
+    {Closure::k_omega_sst_ddes, "kOmegaSSTDDES"},
+    {Closure::spalart_allmaras, "SpalartAllmaras"},
+    {Closure::other, "other"}};
+
+}  // namespace
+
+std::string_view name_of(Closure closure) {
+    return std::ranges::find(closures, closure, &std::pair<Closure, std::string_view>::first)->second;
+}
+
+Closure closure_of(std::string_view name) {
+    const auto* const found =
+        std::ranges::find(closures, name, &std::pair<Closure, std::string_view>::second);
+    return found == std::end(closures) ? Closure::other : found->first;
+}
+
+namespace {
+
 Error error(const std::filesystem::path& file, const std::string& what) {
     return Error(fmt::format(
         "{}: {}; make the cases again with 'samara bake', or, where the plan is yours, correct it",
@@ -46,10 +74,10 @@ CaseScales as_scales(const nlohmann::json& values, const CaseScales& defaults) {
             values.value("density", defaults.density)};
 }
 
-/// Throws where the object has a key that is none of the words: a misspelt one would count for nothing.
+/// Throws where the object has a key that is none of the words: a misspelt one would be ignored.
 void require_known_keys(const nlohmann::json& values, const std::string& where,
                         const std::vector<std::string>& known) {
-    if (!values.is_object()) return;  // which the entries themselves say
+    if (!values.is_object()) return;  // reading the entries reports it
     for (const auto& [key, value] : values.items()) {
         if (std::ranges::find(known, key) != known.end()) continue;
         throw Error(
@@ -139,7 +167,7 @@ bool are_of_one_flow(const PlannedCase& a, const PlannedCase& b) {
     return a.reynolds_number == b.reynolds_number && (a.direction - b.direction).norm() <= 1e-6;
 }
 
-/// Whether the two are one flow for one purpose; of table cases there is one for each flow past the body.
+/// Whether two cases have the same flow and purpose (and mesh and closure, unless they are for the table).
 bool are_same(const PlannedCase& a, const PlannedCase& b) {
     if (a.purpose != b.purpose || !are_of_one_flow(a, b)) return false;
     return a.purpose == CasePurpose::table || (a.mesh == b.mesh && a.closure == b.closure);
@@ -190,7 +218,8 @@ void check(const CasePlan& plan) {
     };
     if (!is_rotation(plan.axes)) throw Error("'axes' is no rotation");
     if (!is_rotation(plan.case_axes)) throw Error("'case_axes' is no rotation");
-    if (plan.subdivisions < 1 || plan.subdivisions > 1024) throw Error("'subdivisions' is not sane");
+    if (plan.subdivisions < 1 || plan.subdivisions > 1024)
+        throw Error("'subdivisions' is not from 1 to 1024");
     if (!(plan.reference_length > 0.0)) throw Error("'reference_length' is not positive");
     check_cases(plan.cases);
     check_turbulence(plan.cases);
@@ -232,7 +261,7 @@ CasePlan read_case_plan(const std::filesystem::path& folder) {
         check(plan);
         return plan;
     } catch (const nlohmann::json::exception& reason) {
-        throw error(file, fmt::format("an entry is missing or of the wrong kind ({})", reason.what()));
+        throw error(file, fmt::format("an entry is missing or of the wrong type ({})", reason.what()));
     } catch (const Error& reason) {
         throw error(file, reason.what());
     }
@@ -242,7 +271,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a link leads in the end, whether or not anything is there; empty for one that leads to itself.
+/// Returns where a link leads, whether or not anything exists there; empty for a link to itself.
 fs::path end_of(const fs::path& link) {
     std::error_code error;
     const fs::path end = fs::weakly_canonical(link.parent_path() / fs::read_symlink(link, error), error);

@@ -9,9 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_setup.hpp"
+#include "converter/cases/case_checks.hpp"
 #include "converter/cases/load_fluctuations.hpp"
-#include "converter/cases/quantity_history.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "converter/tables/standard_error.hpp"
@@ -24,21 +23,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Fields and history are of the same time of the same run: they differ by the rounding of what was written,
-/// six digits or more, alone.
+/// Fields and history of the same time and run differ only by the rounding of what was written, to six digits
+/// or more.
 constexpr double largest_disagreement = 1e-4;
 
-/// Means of the same numbers, by two programs, of which one wrote its own down in full.
+/// The difference between means of the same numbers by two programs, one of which wrote all digits.
 constexpr double largest_drift = 1e-6;
 
-/// The plan's numbers are as the case has them: rounded, of a direction perhaps to a degree.
+/// The numbers of a user's plan may be rounded, those of a direction perhaps to a degree.
 constexpr double largest_difference = 0.02;
 
-/// The body's area in a mesh over its own, which meshes of few cells miss; over that of its length it counts
-/// once.
+/// The error of sqrt(S/pi) by the body's area S in a mesh, which meshes of few cells do not resolve.
 constexpr double largest_difference_of_length = 0.15;
 
-/// One case on its way to a sample.
+/// A case that is being reduced.
 struct CaseSource {
     const fs::path& cases;  ///< the folder of cases
     const CasePlan& plan;
@@ -54,13 +52,13 @@ struct CaseSource {
     }
 };
 
-/// The means of one quantity over the times that count, and their standard errors.
+/// The means of one quantity over the averaging window, and their standard errors.
 struct Tail {
     Vector3d mean;
     Vector3d error;
 };
 
-/// Throws where a value whose time is in the window is not finite.
+/// Averages a history from `start` on. Throws where a value in that window is not finite.
 Tail tail_of(const CaseSource& source, const QuantityHistory& history, double start) {
     std::array<std::vector<double>, 3> window;
     for (std::size_t i = 0; i < history.times.size(); ++i) {
@@ -95,7 +93,7 @@ void require_agreement(const CaseSource& source, const std::string& field, doubl
     }
 }
 
-/// The place of a time in the history. Throws where it has none.
+/// Returns the index of a time in the history. Throws where it is not there.
 std::size_t place_of(const CaseSource& source, const QuantityHistory& history, double time) {
     for (std::size_t i = 0; i < history.times.size(); ++i) {
         if (std::abs(history.times[i] - time) <= 1e-6 * time) return i;
@@ -111,11 +109,11 @@ fs::path mesh_folder(const CaseSource& source) {
     return fs::exists(shared / "constant" / "polyMesh") ? shared : source.folder();
 }
 
-// No flow has more, over the units of the coefficients: plates have force coefficients of 2.5, spheres of
-// Stokes' flow 24/Re; the paper's inflow has k = 1.5 U^2 and epsilon = 1.2 U^3/L, and wakes have a hundredth
+// Limits beyond any flow, in units of the coefficients: plates have force coefficients of 2.5, spheres in
+// Stokes flow 24/Re; the paper's inflow has k = 1.5 U^2 and epsilon = 1.2 U^3/L, and wakes have a hundredth
 // of it.
 constexpr double largest_coefficient = 100.0;
-constexpr double largest_viscous_coefficient = 1000.0;  // over the Reynolds number
+constexpr double largest_viscous_coefficient = 1000.0;  // divided by the Reynolds number
 constexpr double largest_k = 100.0;
 constexpr double largest_epsilon = 1000.0;
 
@@ -143,7 +141,7 @@ QuantityHistory scalar_history(const FoamHistory& history, const std::string& na
     return scalar;
 }
 
-/// Vectors in map axes.
+/// Converts a history to map axes.
 QuantityHistory vector_history(const CaseSource& source, const VectorHistory& history,
                                const std::string& name, double largest) {
     QuantityHistory vectors{name, history.files, history.times, {}, largest};
@@ -152,7 +150,7 @@ QuantityHistory vector_history(const CaseSource& source, const VectorHistory& hi
     return vectors;
 }
 
-/// Force, moment and, where the case has its own, k and epsilon.
+/// Returns the histories of force, moment and, where the case has its own, k and epsilon.
 std::vector<QuantityHistory> histories_of(const CaseSource& source, bool has_turbulence) {
     const fs::path folder = source.folder() / "postProcessing";
     const LoadHistory loads = read_load_history(folder / "forces");
@@ -168,7 +166,7 @@ std::vector<QuantityHistory> histories_of(const CaseSource& source, bool has_tur
     return histories;
 }
 
-/// Holds the histories of k and epsilon against the fields that were written last.
+/// Compares the histories of k and epsilon with the fields that were written last.
 void require_fields_agree(const CaseSource& source, const QuantityHistory& k, const QuantityHistory& epsilon,
                           Shells& shells) {
     const ShellMeans written = mean_over_shell(source.folder(), mesh_folder(source), shells);
@@ -177,7 +175,7 @@ void require_fields_agree(const CaseSource& source, const QuantityHistory& k, co
     require_agreement(source, "epsilon", written.dissipation_rate, epsilon.values[last].x(), written.time);
 }
 
-/// What was solved last is in the histories.
+/// Throws where the histories end before the fields that were written last.
 void require_reach_of_fields(const CaseSource& source, const QuantityHistory& force) {
     const double written = last_written_time(source.folder());
     if (written <= force.times.back() * (1.0 + 1e-6)) return;
@@ -187,13 +185,14 @@ void require_reach_of_fields(const CaseSource& source, const QuantityHistory& fo
                     written, force.times.back()));
 }
 
-/// Means and errors of the times from `start` on, of histories that are whole and plausible.
+/// Returns means and errors of the times from `start` on. Throws where the histories are not whole and
+/// plausible.
 std::vector<Tail> tails_of(const CaseSource& source, std::vector<QuantityHistory>& histories, double start) {
     require_whole(histories, start, source.remedy());
     std::vector<Tail> tails;
     tails.reserve(histories.size());
     for (const QuantityHistory& history : histories) tails.push_back(tail_of(source, history, start));
-    // A moment is a force on an arm: that of a sphere is noise.
+    // The moment of a sphere is noise, which scales with the force.
     histories[1].noise = source.planned.scales.length * tails[0].mean.norm();
     for (const QuantityHistory& history : histories) require_plausible(history, start, source.remedy());
     return tails;
@@ -203,12 +202,12 @@ void require_noted(const CaseSource& source, const std::string& name, const Vect
                    const Vector3d& noted, double noise) {
     if ((mean - noted).norm() <= largest_drift * (noted.norm() + noise)) return;
     throw source.error(fmt::format(
-        "the mean {} over the times that count has changed by {:.3g} % since the case was solved: its "
+        "the mean {} over the averaging window has changed by {:.3g} % since the case was solved: its "
         "history in postProcessing is damaged",
         name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
 }
 
-/// The means are those that provenance.json noted when the case was solved, where it did.
+/// Throws where the means differ from those that provenance.json holds since the case was solved, if it does.
 void require_as_noted(const CaseSource& source, const nlohmann::json& provenance,
                       const std::vector<Tail>& tails) {
     const auto vector = [&](const nlohmann::json& numbers) -> Vector3d {
@@ -227,7 +226,7 @@ void require_as_noted(const CaseSource& source, const nlohmann::json& provenance
         require_noted(source, "epsilon", tails[3].mean, scalar(provenance.at("shell").at("epsilon")), 0.0);
     } catch (const nlohmann::json::exception& reason) {
         throw source.error(
-            fmt::format("in provenance.json an entry is missing or of the wrong kind ({})", reason.what()));
+            fmt::format("in provenance.json an entry is missing or of the wrong type ({})", reason.what()));
     }
 }
 
@@ -253,7 +252,7 @@ std::string in_words(const Vector3d& vector) {
     return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
 }
 
-/// A number of the plan beside what the case has. Throws where they differ.
+/// Throws where a number of the plan differs from that of the case.
 void require_near(const CaseSource& source, const std::string& of_case, double found, const char* key,
                   double planned, double tolerance = largest_difference) {
     if (std::abs(found - planned) <= tolerance * planned) return;
@@ -265,7 +264,7 @@ void require_near(const CaseSource& source, const std::string& of_case, double f
 void require_flow(const CaseSource& source, const Vector3d& flow) {
     require_near(source, "the speed of the flow far from the body is", flow.norm(), "'speed'",
                  source.planned.scales.speed);
-    // In axes of the cases, as the plan has it.
+    // In case axes, as in the plan.
     const Vector3d planned = source.plan.to_map_axes().transpose() * source.planned.direction;
     const Vector3d moves = -flow.normalized();
     if ((moves - planned).norm() <= largest_difference) return;
@@ -274,11 +273,12 @@ void require_flow(const CaseSource& source, const Vector3d& flow) {
         "{}: {} {}, and so the body along {}, but plan.json has the 'direction' {}, which is that of the "
         "body's "
         "velocity; correct it, or solve the case for it",
-        source.folder().string(), is_opposite ? "the flow goes the other way: along" : "the flow goes along",
+        source.folder().string(),
+        is_opposite ? "the flow has the opposite direction: along" : "the flow has the direction",
         in_words(flow.normalized()), in_words(moves), in_words(planned)));
 }
 
-/// The plan is of the flow that the case's own files set up, as far as they say so plainly.
+/// Throws where the plan differs from the flow that the case's own files set up, as far as these can be read.
 void require_as_set_up(const CaseSource& source, Shells& shells) {
     const CaseSetup setup = read_case_setup(source.folder());
     const auto& [length, speed, density] = source.planned.scales;
@@ -330,7 +330,7 @@ nlohmann::json read_provenance(const CaseSource& source) {
     return provenance;
 }
 
-/// The first time that counts for means.
+/// Returns the first time of the averaging window.
 double averaging_start(const CaseSource& source, const nlohmann::json& provenance,
                        const std::vector<double>& times) {
     if (source.planned.averaging_start) return *source.planned.averaging_start;
@@ -347,7 +347,7 @@ Closure solved_closure(const CaseSource& source, const nlohmann::json& provenanc
                                                            : source.planned.closure;
 }
 
-/// Takes k and epsilon of the case that `planned` names, and notes its provenance beside the other.
+/// Takes k and epsilon from the case that `planned` names, and stores its provenance beside the case's own.
 void take_turbulence(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned, Shells& shells,
                      SolvedCase& solved) {
     const auto other = std::ranges::find(plan.cases, planned.turbulence_from, &PlannedCase::name);

@@ -31,7 +31,8 @@ double rms_about(const double* first, std::size_t count, double center) {
     return std::sqrt(squares / static_cast<double>(count));
 }
 
-// In steps: the sum of the autocorrelation, by the trapezoidal rule, to where it first is not positive.
+// Returns the correlation time in steps: the integral of the autocorrelation, by the trapezoidal rule, up to
+// where it first is not positive.
 double correlation_steps(const double* first, std::size_t count, double center) {
     double variance = 0.0;
     double sum = 0.5;
@@ -45,7 +46,7 @@ double correlation_steps(const double* first, std::size_t count, double center) 
             if (variance == 0.0) return 0.0;
             continue;
         }
-        // Each lag has fewer pairs than the one before.
+        // Normalised, since larger lags have fewer pairs.
         const double correlation =
             products / variance * static_cast<double>(count) / static_cast<double>(count - lag);
         if (correlation <= 0.0) break;
@@ -62,7 +63,7 @@ double scatter_of(const std::array<double, pieces>& values) {
     return std::sqrt(squares / (pieces * (pieces - 1.0)));
 }
 
-// The component of a history at even times from `begin` on, `step` apart.
+// Interpolates the component of a history at even times from `begin` on, `step` apart.
 std::vector<double> even(const VectorHistory& history, int component, double begin, double step,
                          std::size_t count) {
     std::vector<double> values(count);
@@ -178,7 +179,7 @@ std::string fluctuation_spectra_csv(const std::vector<LoadFluctuations>& cases) 
 
 namespace {
 
-/// The sum of the vectors whose x components stand in the columns `first`.
+/// Returns the sum of the vectors whose x components are in the columns `first`.
 VectorHistory sum_of(const FoamHistory& history, const std::vector<std::size_t>& first) {
     VectorHistory sum{history.files, {}, {}};
     for (const std::vector<double>& row : history.rows) {
@@ -196,7 +197,8 @@ VectorHistory read_total(const std::filesystem::path& folder, const std::string&
     return sum_of(history, {history.index("total_x")});
 }
 
-/// The vectors of .org's forces.dat that begin with `group`, such as forces_pressure.
+/// Returns the sum of the vectors of OpenFOAM .org's forces.dat whose names begin with `group`, such as
+/// forces_pressure.
 VectorHistory sum_of_group(const FoamHistory& history, const std::string& group) {
     std::vector<std::size_t> first;
     for (std::size_t i = 0; i < history.columns.size(); ++i) {

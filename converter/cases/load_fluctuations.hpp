@@ -12,15 +12,15 @@
 
 namespace samara {
 
-/// A vector at every iteration.
+/// The history of a vector.
 struct VectorHistory {
     HistoryFiles files;
     std::vector<double> times;  ///< ascending
     std::vector<Vector3d> values;
 };
 
-/// What the function object `forces` wrote: the whole force and moment, of pressure and friction (and porous
-/// zones), in the case's units.
+/// The output of the function object `forces`: total force and moment by pressure, friction and porous zones,
+/// in the case's units.
 struct LoadHistory {
     VectorHistory force;
     VectorHistory moment;
@@ -37,26 +37,27 @@ struct MeasuredNumber {
     double error = 0.0;
 };
 
-/// What a stationary series does about its mean.
+/// Statistics of a stationary series about its mean.
 struct SeriesFluctuation {
-    MeasuredNumber mean;                   ///< its error as standard_error()
-    MeasuredNumber rms;                    ///< of the fluctuation, about the mean
-    MeasuredNumber correlation_time;       ///< integral of the autocorrelation to its first zero
-    Spectrum spectrum;                     ///< of the fluctuation, Welch's, in segments of a quarter
-    std::optional<double> peak_frequency;  ///< of the spectrum, above one period in a segment
+    MeasuredNumber mean;              ///< with standard_error()
+    MeasuredNumber rms;               ///< of the fluctuation, about the mean
+    MeasuredNumber correlation_time;  ///< integral of the autocorrelation to its first zero
+    Spectrum spectrum;                ///< of the fluctuation, Welch's, in segments of a quarter
+    std::optional<double>
+        peak_frequency;  ///< of the spectrum, among those with more than one period in a segment
 };
 
-/// The fluctuation of values `time_step` apart, in the units of both. The errors of rms and correlation time
-/// are the scatter of six pieces over the root of their number: they tell nothing of what is slower than a
-/// piece. At least sixty values.
+/// Computes the statistics of values `time_step` apart, in the units of both. The errors of rms and
+/// correlation time are the standard deviation over six pieces divided by the square root of six; they do not
+/// cover changes slower than a piece. At least sixty values are needed.
 SeriesFluctuation fluctuation_of(const std::vector<double>& values, double time_step);
 
 /// The names of the load's components, in the order of LoadFluctuations.
 inline constexpr std::array load_components = {"force_x",  "force_y",  "force_z",
                                                "moment_x", "moment_y", "moment_z"};
 
-/// The loads of a body that is held in a flow solved in time, in body axes: coefficients on rho U^2 A/2 with
-/// A = pi L^2/4, of the moment about the centroid also on L, over times in L/U.
+/// The loads of a body that is held in a flow solved in time, in body axes: coefficients relative to rho U^2
+/// A/2 with A = pi L^2/4, for the moment about the centroid also to L; times in L/U.
 struct LoadFluctuations {
     std::string name;  ///< of the case
     Vector3d direction = Vector3d::Zero();
@@ -70,16 +71,18 @@ struct LoadFluctuations {
 bool is_solved_in_time(const std::filesystem::path& case_folder);
 
 /// Reduces the solved unsteady case in a folder from the time `begin` on (default: the last two thirds):
-/// `parameters` and postProcessing/forces of the template body-flow, its histories laid on even times. Throws
-/// Error naming file and remedy where the case is steady, where something is missing or damaged, or where
-/// fewer than sixty steps are left.
+/// `parameters` and postProcessing/forces of the template body-flow, its histories interpolated to even
+/// times. Throws Error naming file and remedy where the case is steady, where something is missing or
+/// damaged, or where fewer than sixty steps are left.
 LoadFluctuations reduce_fluctuations(const std::filesystem::path& case_folder,
                                      const std::optional<double>& begin = {});
 
-/// A row for each case and component after a row of names: mean, rms, correlation time and peak, with errors.
+/// Returns a CSV table with a row for each case and component after a row of names: mean, rms, correlation
+/// time and peak, with errors.
 std::string fluctuations_csv(const std::vector<LoadFluctuations>& cases);
 
-/// The spectra: a row for each case, component and frequency (U/L), its power in coefficient^2 L/U.
+/// Returns the spectra as a CSV table: a row for each case, component and frequency (U/L), with the power in
+/// coefficient^2 L/U.
 std::string fluctuation_spectra_csv(const std::vector<LoadFluctuations>& cases);
 
 }  // namespace samara

@@ -17,7 +17,7 @@ constexpr const char* heading =
     "force_error_x,force_error_y,force_error_z,moment_error_x,moment_error_y,moment_error_z,"
     "turbulent_kinetic_energy_error,dissipation_rate_error\n";
 
-/// As RFC 4180 wants it: in quotation marks where it holds a separator.
+/// Quotes a text by RFC 4180 where it holds a separator.
 std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";

@@ -8,12 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "converter/cases/case_setup.hpp"
-#include "converter/openfoam/foam_bytes.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_file.hpp"
+#include "converter/openfoam/foam_history.hpp"
+#include "converter/openfoam/foam_scanner.hpp"
 #include "converter/openfoam/poly_mesh.hpp"
-#include "converter/openfoam/time_folders.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -21,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The digits after "processor" in a folder's name; nothing for other names.
+/// Returns the number after "processor" in a folder's name; nothing for other names.
 std::optional<int> processor_number(const std::string& name) {
     constexpr std::string_view prefix = "processor";
     if (!name.starts_with(prefix)) return std::nullopt;
@@ -32,7 +31,7 @@ std::optional<int> processor_number(const std::string& name) {
     return whole ? std::optional(number) : std::nullopt;
 }
 
-/// How many parts the case says it was cut into; 0 where it does not say.
+/// Returns the number of parts into which the case was decomposed; 0 where it is not stated.
 int stated_processors(const fs::path& folder) {
     const fs::path file = folder / "system" / "decomposeParDict";
     if (!fs::exists(file)) return 0;
@@ -41,7 +40,7 @@ int stated_processors(const fs::path& folder) {
                                                 : 0;
 }
 
-/// The folders processor0, processor1, ...; empty where the case is not decomposed.
+/// Returns the folders processor0, processor1, ...; none where the case is not decomposed.
 std::vector<fs::path> processor_folders(const fs::path& folder) {
     int count = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -63,7 +62,7 @@ std::vector<fs::path> processor_folders(const fs::path& folder) {
     return processors;
 }
 
-/// Whether the parts lie together in one folder processors2 or several processors4_0-1.
+/// Whether the case is decomposed in the collated layout: one folder processors2 or several processors4_0-1.
 bool is_collated(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
@@ -79,7 +78,7 @@ double last_time(const fs::path& folder) {
     return times.empty() ? 0.0 : times.back().time;
 }
 
-/// Some of the fields of a time, and the folder of the mesh that they are on.
+/// The fields of a part of the case, and the folder of their mesh.
 struct FieldPart {
     fs::path fields;
     fs::path mesh;
@@ -118,7 +117,7 @@ WrittenTime last_written(const fs::path& folder, const fs::path& mesh) {
     return written;
 }
 
-/// The field's values in the cells.
+/// Returns the field's values in the cells.
 std::vector<double> values_at(const FoamField<double>& field, const std::vector<std::int64_t>& cells,
                               const fs::path& file) {
     std::vector<double> values;
@@ -136,7 +135,7 @@ std::vector<double> values_at(const FoamField<double>& field, const std::vector<
     return values;
 }
 
-/// k, epsilon and volumes are.
+/// Throws where a value (k, epsilon or a volume) is negative or not finite.
 void require_positive(double value, std::int64_t cell, const fs::path& file) {
     if (value >= 0.0 && std::isfinite(value)) return;
     throw Error(
@@ -144,7 +143,7 @@ void require_positive(double value, std::int64_t cell, const fs::path& file) {
                     file.string(), value, cell));
 }
 
-/// The volumes of the shell's cells.
+/// Returns the volumes of the shell's cells: by the field V, or from the mesh.
 std::vector<double> shell_volumes(const fs::path& fields, Shell& shell) {
     const fs::path file = fields / "V";
     if (!foam_file_exists(file)) {

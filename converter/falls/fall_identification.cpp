@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "converter/falls/falling_body.hpp"
+#include "converter/falls/fall_record.hpp"
 #include "converter/falls/motion_parameters.hpp"
 #include "converter/tables/least_squares.hpp"
 #include "samara/analysis/metrics/metric_catalogue.hpp"
@@ -19,51 +19,51 @@ namespace {
 
 using Eigen::VectorXd;
 
-// These numbers were chosen by looking at the ten reference falls and at how the bodies that are identified
-// fly them (docs/studies/falls/README.md#how-the-coefficients-are-found).
+// These numbers were chosen by the ten reference falls and how the identified bodies reproduce them
+// (docs/studies/falls/README.md#how-the-coefficients-are-found).
 //
-// Times are over L/U. The horizon is about a swing of a fluttering body: long enough for its energy to
-// matter, short enough not to be chaotic.
+// Times are in units of L/U. The horizon is about one oscillation of a fluttering body: long enough for its
+// energy to matter, short enough not to be chaotic.
 constexpr double first_segment = 0.5;
 constexpr double horizon = 3.0;
 constexpr double spacing = 0.5;
-constexpr double flown_step = 0.03;
-constexpr int samples = 4;                     // at the fall, in each segment
+constexpr double simulated_step = 0.03;
+constexpr int samples = 4;                     // in each segment
 constexpr Eigen::Index numbers_of_sample = 9;  // velocity, tip speed, rotation
 constexpr double usual_miss = 0.2;             // beyond it a residual counts less
-constexpr double expected_miss = 0.1;          // as far as expectations weigh
-// What the flights of segments miss is forgiven where the swings die: they are fitted best by a body that
-// swings less than it should. So the figures of the whole flight count too: as so many numbers of segments,
-// each where it is off by its fitted_miss as much as a number by `usual_miss`. 15 to 80 numbers in place of
-// the 40 give the same falls within their limits, 160 a disc that falls too fast (docs/studies/falls, "How
-// the coefficients are found").
+constexpr double expected_miss = 0.1;          // sets the weight of the expectations
+// The segments alone are fitted best by a body that oscillates less than it should, since errors of phase
+// vanish where oscillations die out. So the metrics of the whole fall count too: each as this many numbers of
+// segments, where an error by its fitted_miss counts like `usual_miss` of a number. Values from 15 to 80 give
+// the same falls within their tolerances, 160 a disc that falls too fast (docs/studies/falls, "How the
+// coefficients are found").
 constexpr Eigen::Index metrics_of_fall = fitted_metrics.size();
 constexpr double count_of_metric = 40.0;
-constexpr double least_count = 1e-3;  // of them, to begin with
+constexpr double least_count = 1e-3;  // the count at the start
 constexpr std::array growing_counts = {1e-2, 0.1, 1.0, 10.0};
-constexpr double farthest_metric = 10.0;  // over those
+constexpr double farthest_metric = 10.0;  // in units of fitted_miss
 constexpr int stretches = identification_stretches;
-constexpr int least_segments = 2 * stretches;  // of each fall
-constexpr int excursion = 12;                  // iterations, to where another descent starts
-constexpr double of_descents = 0.8;            // of the work that progress tells of
-// No number of a miss counts more: coefficients with which a body flies off are bad, but no worse than that.
-constexpr double farthest_flight = 10.0;
-// A sample's time may be off by this share of its step: the flights take steps of one length.
+constexpr int least_segments = 2 * stretches;  // in each fall
+constexpr int excursion = 12;                  // iterations towards the start of another descent
+constexpr double of_descents = 0.8;            // share of the work in `progress`
+// The limit of each residual, so that coefficients with which a simulation diverges have a finite cost.
+constexpr double largest_residual = 10.0;
+// A sample's time may be off by this share of its step, since the simulations have constant steps.
 constexpr double uneven_time = 0.01;
 
-// A fall made ready for many flights.
+// A fall prepared for many simulations.
 struct ReadyFall {
     FallRecord record;
     ImmersedBody body;
     std::vector<BodyState> states;
     Vector3d gravity;
-    std::size_t stride;  // states to a flown step
+    std::size_t stride;  // number of states in a simulated step
     Measures measures;
 };
 
 struct Segment {
     std::size_t fall;
-    std::size_t begin;  // state
+    std::size_t begin;  // index of the state
     int stretch;
 };
 
@@ -115,24 +115,25 @@ std::vector<Segment> segments_of(const std::vector<ReadyFall>& falls) {
     return segments;
 }
 
-// What the flight misses of the fall at one sample, over the fall's scales.
-Eigen::Matrix<double, numbers_of_sample, 1> miss(const ReadyFall& fall, const BodyState& flown,
+// Returns the differences of a simulated state from the solved one, in units of the fall's scales: velocity,
+// tip speed and rotation (rad).
+Eigen::Matrix<double, numbers_of_sample, 1> miss(const ReadyFall& fall, const BodyState& simulated,
                                                  const BodyState& solved) {
     const double speed = fall.record.fall.speed;
     const double tip = fall.body.dynamic.half_length / speed;
-    const Matrix3d to_world = flown.orientation.toRotationMatrix();
+    const Matrix3d to_world = simulated.orientation.toRotationMatrix();
     const Matrix3d solved_to_world = solved.orientation.toRotationMatrix();
-    const Eigen::AngleAxisd turn(Matrix3d(solved_to_world.transpose() * to_world));
+    const Eigen::AngleAxisd rotation(Matrix3d(solved_to_world.transpose() * to_world));
     Eigen::Matrix<double, numbers_of_sample, 1> result;
-    result << (to_world * flown.velocity.tail<3>() - solved_to_world * solved.velocity.tail<3>()) / speed,
-        (to_world * flown.velocity.head<3>() - solved_to_world * solved.velocity.head<3>()) * tip,
-        turn.angle() * turn.axis();
-    if (!result.allFinite()) result.setConstant(farthest_flight);
-    return result.cwiseMin(farthest_flight).cwiseMax(-farthest_flight);
+    result << (to_world * simulated.velocity.tail<3>() - solved_to_world * solved.velocity.tail<3>()) / speed,
+        (to_world * simulated.velocity.head<3>() - solved_to_world * solved.velocity.head<3>()) * tip,
+        rotation.angle() * rotation.axis();
+    if (!result.allFinite()) result.setConstant(largest_residual);
+    return result.cwiseMin(largest_residual).cwiseMax(-largest_residual);
 }
 
-void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin,
-                 Eigen::Ref<VectorXd> residuals) {
+void simulate_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t begin,
+                      Eigen::Ref<VectorXd> residuals) {
     const double time_step = step_of(fall) * static_cast<double>(fall.stride);
     const int steps = steps_to_sample(fall);
     BodyState state = fall.states[begin];
@@ -144,8 +145,8 @@ void fly_segment(const ReadyFall& fall, const ImmersedBody& body, std::size_t be
     }
 }
 
-// A fall's first state has the momenta of body and fluid as the body's own, while the fluid is still at rest
-// (free_fall.hpp): this one has them shared.
+// Returns the state at the start with the momenta shared between body and fluid. In the fall's first state
+// the body has all of them, while the fluid is still at rest (free_fall.hpp).
 BodyState start_of(const ReadyFall& fall) {
     BodyState start = fall.states.front();
     Vector6d momenta;
@@ -154,7 +155,7 @@ BodyState start_of(const ReadyFall& fall) {
     return start;
 }
 
-// Of every `stride`th state.
+// Returns the motion of every `stride`th state.
 Motion motion_of(const Body& body, const ReadyFall& fall, const std::vector<BodyState>& states) {
     return motion_of(body, fall.gravity, step_of(fall) * static_cast<double>(fall.stride), states);
 }
@@ -169,14 +170,14 @@ std::vector<BodyState> solved_states(const ReadyFall& fall) {
     return solved;
 }
 
-// The wake at each of a fall's states, by the way to it.
+// Sets the wake at each of a fall's states by integrating it along the motion up to there.
 void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState>& states) {
     for (std::size_t i = 1; i < states.size(); ++i) {
         const Vector6d velocity = body.to_centroid * (0.5 * (states[i - 1].velocity + states[i].velocity));
         const WakeRates rates = wake_rates(body, velocity);
         const Vector3d direction = velocity.tail<3>().stableNormalized();
-        const Vector3d& unseen = rates.spin_about_symmetry;
-        const Eigen::AngleAxisd back(-time_step * unseen.norm(), unseen.stableNormalized());
+        const Vector3d& spin = rates.spin_about_symmetry;
+        const Eigen::AngleAxisd back(-time_step * spin.norm(), spin.stableNormalized());
         const auto [formed, heading] = states[i - 1].wake;
         states[i].wake.formed = 1.0 + std::exp(-time_step * rates.formation) * (formed - 1.0);
         states[i].wake.heading =
@@ -184,7 +185,7 @@ void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState
     }
 }
 
-// `settling_length`: of the coefficients that are sought; without, the body's own.
+// Prepares a fall. `settling_length`: that of the coefficients to be identified; by default the body's own.
 ReadyFall ready(const Body& body, const FallRecord& record,
                 const std::optional<double>& settling_length = {}) {
     if (record.samples.empty()) throw too_short(record);
@@ -192,39 +193,40 @@ ReadyFall ready(const Body& body, const FallRecord& record,
     ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1,
                    {}};
     const double step = record.samples.front().time;
-    fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(flown_step / step)));
+    fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(simulated_step / step)));
     if (settling_length) fall.body.dynamic.settling_length = *settling_length;
     set_wakes(fall.body, step_of(fall), fall.states);
     fall.measures = measures_of(motion_of(body, fall, solved_states(fall)));
     return fall;
 }
 
-Motion fly_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& flying) {
+Motion simulate_whole(const Body& body, const ReadyFall& fall, const ImmersedBody& immersed) {
     const double time_step = step_of(fall) * static_cast<double>(fall.stride);
-    std::vector<BodyState> flown;
+    std::vector<BodyState> simulated;
     BodyState state = start_of(fall);
     for (std::size_t i = 0; i < fall.states.size(); i += fall.stride) {
-        flown.push_back(state);
-        state = implicit_step(flying, fall.gravity, time_step, state);
+        simulated.push_back(state);
+        state = implicit_step(immersed, fall.gravity, time_step, state);
     }
-    return motion_of(body, fall, flown);
+    return motion_of(body, fall, simulated);
 }
 
-// How far two figures are apart, over `usual`; as far as can be where there is but one of them.
-double metric_miss(double flown, double solved, double usual) {
-    if (!(flown > 0.0) && !(solved > 0.0)) return 0.0;
-    const double miss = std::log(flown / solved) / usual;
+// Returns the logarithmic difference of two metrics in units of `usual`; the largest value where only one of
+// them exists.
+double metric_miss(double simulated, double solved, double usual) {
+    if (!(simulated > 0.0) && !(solved > 0.0)) return 0.0;
+    const double miss = std::log(simulated / solved) / usual;
     if (!std::isfinite(miss)) return farthest_metric;
     return std::clamp(miss, -farthest_metric, farthest_metric);
 }
 
-Eigen::Matrix<double, metrics_of_fall, 1> metrics_miss(const Measures& flown, const Measures& solved) {
+Eigen::Matrix<double, metrics_of_fall, 1> metrics_miss(const Measures& simulated, const Measures& solved) {
     Eigen::Matrix<double, metrics_of_fall, 1> result;
     Eigen::Index i = 0;
     for (const Metric metric : fitted_metrics) {
         const CataloguedMetric& entry = catalogued(metric);
-        result[i++] = metric_miss(entry.measured(flown).value_or(0.0), entry.measured(solved).value_or(0.0),
-                                  entry.fitted_miss);
+        result[i++] = metric_miss(entry.measured(simulated).value_or(0.0),
+                                  entry.measured(solved).value_or(0.0), entry.fitted_miss);
     }
     return result;
 }
@@ -239,26 +241,26 @@ Eigen::Index metrics_of(const std::vector<ReadyFall>& falls) {
     return metrics_of_fall * static_cast<Eigen::Index>(falls.size());
 }
 
-// Of the segments, and of the figures of each fall as a whole.
+// Returns the residuals of the segments, followed by those of the metrics of each whole fall.
 VectorXd residuals_of(const Body& body, const std::vector<ReadyFall>& falls,
                       const std::vector<Segment>& segments, const DynamicCoefficients& coefficients) {
-    std::vector<ImmersedBody> flying;
-    flying.reserve(falls.size());
+    std::vector<ImmersedBody> bodies;
+    bodies.reserve(falls.size());
     for (const ReadyFall& fall : falls) {
-        flying.push_back(fall.body);
-        flying.back().dynamic = coefficients;
-        prepare(flying.back());
+        bodies.push_back(fall.body);
+        bodies.back().dynamic = coefficients;
+        prepare(bodies.back());
     }
     VectorXd residuals(count(segments) + metrics_of(falls));
     Eigen::Index at = 0;
     for (const Segment& segment : segments) {
-        fly_segment(falls[segment.fall], flying[segment.fall], segment.begin,
-                    residuals.segment(at, numbers_of_segment));
+        simulate_segment(falls[segment.fall], bodies[segment.fall], segment.begin,
+                         residuals.segment(at, numbers_of_segment));
         at += numbers_of_segment;
     }
     for (std::size_t i = 0; i < falls.size(); ++i) {
-        const Measures flown = measures_of(fly_whole(body, falls[i], flying[i]));
-        residuals.segment<metrics_of_fall>(at) = usual_miss * metrics_miss(flown, falls[i].measures);
+        const Measures simulated = measures_of(simulate_whole(body, falls[i], bodies[i]));
+        residuals.segment<metrics_of_fall>(at) = usual_miss * metrics_miss(simulated, falls[i].measures);
         at += metrics_of_fall;
     }
     return residuals;
@@ -285,7 +287,8 @@ LeastSquaresProblem problem_of(const Body& body, const std::vector<ReadyFall>& f
         problem.deviation[i] = parameter.deviation;
     }
     problem.scale = usual_miss;
-    // A segment's samples are not independent, nor are segments that overlap: about one number in a dozen is.
+    // The samples of a segment are not independent, nor are overlapping segments: about one number in a dozen
+    // is.
     problem.prior_weight = 12.0 * expected_miss * expected_miss;
     return problem;
 }
@@ -295,13 +298,14 @@ std::vector<Segment> without_stretch(std::vector<Segment> segments, int stretch)
     return segments;
 }
 
-// Of the problem where the whole falls' `figures`, its last residuals, count next to nothing.
+// Returns the solution where the metrics of the whole falls, the last `metrics` residuals, count next to
+// nothing.
 VectorXd solution_of_segments(LeastSquaresProblem problem, Eigen::Index metrics) {
     problem.counts.tail(metrics).setConstant(least_count);
     return solve_least_squares(problem).x;
 }
 
-// Where the segments' solution moves as the figures count more and more, nearly as much as they do.
+// Follows the segments' solution while the count of the metrics is raised, nearly to its final value.
 VectorXd followed(LeastSquaresProblem problem, Eigen::Index metrics, const VectorXd& of_segments) {
     problem.start = of_segments;
     for (const double count : growing_counts) {
@@ -311,10 +315,11 @@ VectorXd followed(LeastSquaresProblem problem, Eigen::Index metrics, const Vecto
     return problem.start;
 }
 
-// The whole flights' figures are rough functions of the coefficients, the segments' flights smooth ones: the
-// cost has many valleys, and in which of them one descent ends turns on the last digits of the falls. So it
-// is descended from several starts: the segments' solution, where that moves as the figures count more and
-// more, where it moves in a few iterations without one of the stretches, and what is expected.
+// The metrics of whole falls are rough functions of the coefficients, the residuals of segments smooth ones:
+// the cost has many local minima, and the one in which a single descent ends depends on the last digits of
+// the falls. So it is minimised from several starts: the segments' solution, that solution followed while the
+// count of the metrics is raised, the solutions after a few iterations without one of the stretches, and the
+// expectation.
 std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& falls,
                                 const std::vector<Segment>& segments, const MotionParameters& parameters) {
     const LeastSquaresProblem whole = problem_of(body, falls, segments, parameters);
@@ -330,10 +335,10 @@ std::vector<VectorXd> starts_of(const Body& body, const std::vector<ReadyFall>& 
     return starts;
 }
 
-// They come from leaving out one stretch at a time (Efron & Tibshirani, An Introduction to the Bootstrap,
-// 1993, section 11.2), which knows nothing of the pull of what is expected: that is the same whatever is left
-// out. Without a stretch the figures' valleys move too: a descent from the solution alone stays in its own,
-// and tells too small an error of falls with noise.
+// Returns the standard errors by the jackknife over the stretches (Efron & Tibshirani, An Introduction to the
+// Bootstrap, 1993, section 11.2), plus those by the uncertainty of the expectation, which the jackknife does
+// not see. Without a stretch the local minima by the metrics move too: a descent from the solution alone
+// would stay in its own minimum, and give too small an error for falls with noise.
 VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& falls,
                             const std::vector<Segment>& segments, const MotionParameters& parameters,
                             const VectorXd& solution, const std::optional<int>& left_out,
@@ -361,11 +366,12 @@ VectorXd standard_errors_of(const Body& body, const std::vector<ReadyFall>& fall
     return (variance + of_expectation.cwiseAbs2()).cwiseSqrt();
 }
 
-FlownFall flown_fall(const Body& body, const ReadyFall& fall, const DynamicCoefficients& coefficients) {
-    ImmersedBody flying = fall.body;
-    flying.dynamic = coefficients;
-    prepare(flying);
-    return {fall.record.fall.name, fall.measures, measures_of(fly_whole(body, fall, flying)),
+SimulatedFall simulated_fall(const Body& body, const ReadyFall& fall,
+                             const DynamicCoefficients& coefficients) {
+    ImmersedBody immersed = fall.body;
+    immersed.dynamic = coefficients;
+    prepare(immersed);
+    return {fall.record.fall.name, fall.measures, measures_of(simulate_whole(body, fall, immersed)),
             balance_of(fall.record)};
 }
 
@@ -391,9 +397,9 @@ std::string origin_of(const std::vector<FallRecord>& falls, double error) {
 
 }  // namespace
 
-FlownFall fly_fall(const Body& body, const FallRecord& record) {
+SimulatedFall simulate_fall(const Body& body, const FallRecord& record) {
     const ReadyFall fall = ready(body, record);
-    return flown_fall(body, fall, fall.body.dynamic);
+    return simulated_fall(body, fall, fall.body.dynamic);
 }
 
 FallMotions fall_motions(const Body& body, const FallRecord& record) {
@@ -411,7 +417,7 @@ FallMotions fall_motions(const Body& body, const FallRecord& record) {
         }
         return motion;
     };
-    return {shown(motion_of(body, fall, solved_states(fall))), shown(fly_whole(body, fall, fall.body))};
+    return {shown(motion_of(body, fall, solved_states(fall))), shown(simulate_whole(body, fall, fall.body))};
 }
 
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
@@ -442,7 +448,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     result.coefficients.values.origin = origin_of(records, result.prediction_error);
     result.coefficients.densities = densities_of(records);
     for (const ReadyFall& fall : falls) {
-        result.falls.push_back(flown_fall(body, fall, result.coefficients.values));
+        result.falls.push_back(simulated_fall(body, fall, result.coefficients.values));
     }
     return result;
 }

@@ -9,6 +9,8 @@
 #include "converter/cases/load_fluctuations.hpp"
 #include "converter/openfoam/foam_history.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/simulation/world_pose.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
 namespace {
@@ -18,22 +20,22 @@ Vector3d vector_at(const FoamHistory& history, std::size_t row, std::size_t firs
     return {values[first], values[first + 1], values[first + 2]};
 }
 
-// OpenFOAM's eulerAngles(XYZ).
-Matrix3d turn_of(const Vector3d& angles) {
-    using Turn = Eigen::AngleAxisd;
-    return (Turn(angles.x(), Vector3d::UnitX()) * Turn(angles.y(), Vector3d::UnitY()) *
-            Turn(angles.z(), Vector3d::UnitZ()))
+// Returns the rotation of OpenFOAM's eulerAngles(XYZ).
+Matrix3d rotation_of(const Vector3d& angles) {
+    using Rotation = Eigen::AngleAxisd;
+    return (Rotation(angles.x(), Vector3d::UnitX()) * Rotation(angles.y(), Vector3d::UnitY()) *
+            Rotation(angles.z(), Vector3d::UnitZ()))
         .toRotationMatrix();
 }
 
-// Over L/U: the jolt of a body let go in fluid at rest has died away by then.
+// In units of L/U: the jolt of a body released in fluid at rest has decayed by then.
 constexpr double longest_jolt = 0.5;
-// Over L: with less than this as arm, a force turns no body that matters; what is smaller is noise of the
-// pressure, as the moment on a sphere.
+// In units of L: the moment of the force with a smaller arm is negligible, such as the noise of the moment on
+// a sphere.
 constexpr double least_arm = 0.01;
 
-// In the case's units: a fall has blown up at a speed of 10, its angular velocity stays below 100, and fluid
-// that is set in motion within one short step answers with a force of some hundred.
+// In the case's units: a fall has diverged at a speed of 10, its angular velocity stays below 100, and fluid
+// that is accelerated within one short step reacts with a force of some hundred.
 constexpr double largest_value = 1e4;
 
 Error damaged(const std::filesystem::path& folder, const std::string& what) {
@@ -41,7 +43,7 @@ Error damaged(const std::filesystem::path& folder, const std::string& what) {
                              folder.string(), what));
 }
 
-// States, forces and moments are of the same times, which follow one another in even steps to the fall's end.
+// Throws unless states, forces and moments are of the same times, in even steps to the fall's end.
 void require_whole(const std::filesystem::path& folder, const FreeFall& fall, const FoamHistory& state,
                    const LoadHistory& loads) {
     const double same = 1e-6 * fall.duration;
@@ -71,7 +73,7 @@ void require_whole(const std::filesystem::path& folder, const FreeFall& fall, co
     }
 }
 
-// The rate of change of a vector between the samples beside sample i.
+// Returns the rate of change of a vector at sample i, by central differences.
 template <typename Quantity>
 Vector3d rate(const std::vector<FallSample>& samples, std::size_t i, Quantity quantity) {
     const FallSample& before = samples[i - 1];
@@ -98,8 +100,8 @@ FallRecord read_fall_record(const std::filesystem::path& folder) {
         sample.time = state.rows[i].front();
         sample.position = vector_at(state, i, position);
         const Vector3d angle = vector_at(state, i, angles);
-        // The solver turns the axes of its inertia.
-        sample.turn = turn_of(angle) * record.fall.principal_axes.transpose();
+        // The solver's rotation is that of the principal axes.
+        sample.rotation = rotation_of(angle) * record.fall.principal_axes.transpose();
         sample.velocity = vector_at(state, i, velocity);
         sample.angular_velocity = vector_at(state, i, angular_velocity);
         sample.force = loads.force.values[i];
@@ -116,8 +118,8 @@ FallRecord read_fall_record(const std::filesystem::path& folder) {
     return record;
 }
 
-bool is_doubtful(const FallBalance& balance) {
-    return balance.force > doubtful_balance.force || balance.moment > doubtful_balance.moment;
+bool is_unbalanced(const FallBalance& balance) {
+    return balance.force > largest_good_balance.force || balance.moment > largest_good_balance.moment;
 }
 
 FallBalance balance_of(const FallRecord& record) {
@@ -126,7 +128,7 @@ FallBalance balance_of(const FallRecord& record) {
     if (samples.size() < 3) return {};
     const Matrix3d inertia = fall.inertia();
     const auto spin = [&](const FallSample& sample) -> Vector3d {
-        return sample.turn * (inertia * (sample.turn.transpose() * sample.angular_velocity));
+        return sample.rotation * (inertia * (sample.rotation.transpose() * sample.angular_velocity));
     };
     const auto velocity = [](const FallSample& sample) -> Vector3d { return sample.velocity; };
     const Vector3d weight = (fall.mass - fall.volume) * fall.gravity;
@@ -146,8 +148,10 @@ FallBalance balance_of(const FallRecord& record) {
         force_residual += (fall.mass * acceleration - weight - sample.force).squaredNorm();
         force += sample.force.squaredNorm();
         of_weights += weight.squaredNorm();
-        // The buoyancy's arm is from the centre of mass to the centroid, and it is opposed to gravity.
-        const Vector3d of_buoyancy = (sample.turn * fall.center_of_mass).cross(fall.volume * fall.gravity);
+        // The arm of the buoyancy is from the centre of mass to the centroid, and its direction opposite to
+        // gravity.
+        const Vector3d of_buoyancy =
+            (sample.rotation * fall.center_of_mass).cross(fall.volume * fall.gravity);
         moment_residual += (rate(samples, i, spin) - of_buoyancy - sample.moment).squaredNorm();
         moment += sample.moment.squaredNorm();
         of_buoyancies += of_buoyancy.squaredNorm();
@@ -160,6 +164,65 @@ FallBalance balance_of(const FallRecord& record) {
     return {ratio(force_residual, force_scale),
             ratio(moment_residual,
                   std::max({moment, gyroscopic, of_buoyancies, least_arm * least_arm * force_scale}))};
+}
+
+ImmersedBody falling_body(const Body& body, const FreeFall& fall) {
+    const double length = reference_length(body.moments.surface_area);
+    if (std::abs(length - fall.length) > 1e-6 * length) {
+        throw Error(
+            fmt::format("{}: the fall is of another body than {}: its length L is {:.6g} m, not {:.6g} m",
+                        fall.name, body.name, fall.length, length));
+    }
+    const double mass_unit = fall.fluid_density * length * length * length;
+    BodyPhysics physics;
+    physics.mass.mass = fall.mass * mass_unit;
+    physics.mass.center_of_mass = body.moments.centroid + length * (fall.axes * fall.center_of_mass);
+    physics.mass.inertia =
+        mass_unit * length * length * (fall.axes * fall.inertia() * fall.axes.transpose()).eval();
+    physics.turbulence = Turbulence::none;
+    Fluid fluid;
+    fluid.density = fall.fluid_density;
+    fluid.viscosity = fall.speed * length * fall.fluid_density / fall.reynolds_number;
+    return make_immersed_body(body, physics, fluid, body.name);
+}
+
+std::vector<BodyState> states_of(const FallRecord& record) {
+    const FreeFall& fall = record.fall;
+    const Matrix3d& axes = fall.axes;
+    const auto state = [&](const Vector3d& position, const Matrix3d& rotation, const Vector3d& velocity,
+                           const Vector3d& angular_velocity) {
+        BodyState one;
+        one.position = fall.length * (axes * (position - fall.center_of_mass));
+        one.orientation = Quaterniond(axes * rotation * axes.transpose());
+        one.velocity << axes * (rotation.transpose() * angular_velocity) / fall.time_unit(),
+            axes * (rotation.transpose() * velocity) * fall.speed;
+        return one;
+    };
+    std::vector<BodyState> states = {
+        state(fall.center_of_mass, Matrix3d::Identity(), fall.velocity, fall.angular_velocity)};
+    for (const FallSample& sample : record.samples) {
+        states.push_back(state(sample.position, sample.rotation, sample.velocity, sample.angular_velocity));
+    }
+    return states;
+}
+
+Vector3d gravity_of(const FreeFall& fall) {
+    return fall.axes * fall.gravity * fall.speed / fall.time_unit();
+}
+
+Motion motion_of(const Body& body, const Vector3d& gravity, double interval,
+                 const std::vector<BodyState>& states) {
+    Motion motion;
+    motion.gravity = gravity;
+    motion.frame_rate = 1.0 / interval;
+    BodyMotion& one = motion.bodies.emplace_back();
+    one.name = body.name;
+    one.shortest_axis = principal_axes(body.moments).col(0);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        motion.times.push_back(static_cast<double>(i) * interval);
+        one.poses.push_back(flow_pose(states[i]));
+    }
+    return motion;
 }
 
 }  // namespace samara

@@ -85,7 +85,7 @@ FreeFall read_free_fall(const std::filesystem::path& folder) {
         check(fall);
         return fall;
     } catch (const nlohmann::json::exception& reason) {
-        throw Error(fmt::format("{}: an entry is missing or of the wrong kind ({}); make the case again",
+        throw Error(fmt::format("{}: an entry is missing or of the wrong type ({}); make the case again",
                                 file.string(), reason.what()));
     } catch (const Error& reason) {
         throw Error(fmt::format("{}: {}; make the case again", file.string(), reason.what()));

@@ -1,8 +1,7 @@
-#include "converter/falls/identification_report.hpp"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "converter/falls/fall_identification.hpp"
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/formats/json_text.hpp"
@@ -28,7 +27,7 @@ std::string metrics(const char* what, const Measures& measures) {
 
 }  // namespace
 
-nlohmann::json flown_fall_as_json(const FlownFall& fall) {
+nlohmann::json simulated_fall_as_json(const SimulatedFall& fall) {
     return {{"name", fall.name},
             {"solved", as_json(fall.solved)},
             {"flown", as_json(fall.flown)},
@@ -37,7 +36,7 @@ nlohmann::json flown_fall_as_json(const FlownFall& fall) {
 
 nlohmann::json identification_as_json(const Identification& identification) {
     nlohmann::json falls = nlohmann::json::array();
-    for (const FlownFall& fall : identification.falls) falls.push_back(flown_fall_as_json(fall));
+    for (const SimulatedFall& fall : identification.falls) falls.push_back(simulated_fall_as_json(fall));
     return {{"prediction_error", identification.prediction_error},
             {"segments", identification.segments},
             {"coefficients", coefficients_as_json(identification.coefficients.values)},
@@ -45,7 +44,7 @@ nlohmann::json identification_as_json(const Identification& identification) {
             {"falls", falls}};
 }
 
-std::string flown_fall_as_text(const FlownFall& fall) {
+std::string simulated_fall_as_text(const SimulatedFall& fall) {
     return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name,
                        100.0 * fall.balance.force, 100.0 * fall.balance.moment) +
            metrics("full CFD", fall.solved) + metrics("flown", fall.flown);
@@ -55,7 +54,7 @@ std::string identification_as_text(const Identification& identification) {
     std::string text = fmt::format(
         "Dynamic coefficients from {} stretches of free fall, missed by {:.1f} % of the fall's speed:\n",
         identification.segments, 100.0 * identification.prediction_error);
-    for (const FlownFall& fall : identification.falls) text += flown_fall_as_text(fall);
+    for (const SimulatedFall& fall : identification.falls) text += simulated_fall_as_text(fall);
     return text;
 }
 

@@ -13,7 +13,7 @@ namespace samara {
 namespace {
 
 constexpr const char* unsteady_factor = "unsteady factor";
-// Of these every body has what bodies have in common.
+// These terms have the same value for every body.
 constexpr const char* drag_in_motion = "drag in motion";
 constexpr const char* drag_in_spin = "drag in spin";
 constexpr const char* transport_of_rotation = "turning transport";
@@ -24,7 +24,7 @@ struct Expectation {
     double expected, deviation, lower, upper;
 };
 
-// What the falls in docs/studies/falls have in common, and how far they differ.
+// Means and deviations over the falls in docs/studies/falls.
 constexpr Expectation expectations[] = {
     {&DynamicCoefficients::transport, "transport", 0.0, 1.0, -6.0, 6.0},
     {&DynamicCoefficients::rotational_drag, "rotational drag", usual_rotational_drag, 0.7, 0.0, 6.0},
@@ -32,7 +32,7 @@ constexpr Expectation expectations[] = {
      0.7, 0.0, 6.0},
 };
 
-// Axes along which the body moves alike: within this, relative.
+// The relative difference up to which two axes count as equal.
 constexpr double alike = 0.01;
 
 Eigen::Vector3i tied_axes(const Matrix3d& axes, const Body& body, double half_length) {
@@ -72,7 +72,8 @@ MotionParameters::MotionParameters(const Body& body, const std::vector<std::stri
     axes_ = principal_axes(body.moments);
     shared_ = default_dynamic_coefficients(body);
     shared_.origin.clear();
-    // Whole, where the defaults' fade towards a sphere: so they follow the falls better (docs/studies/falls).
+    // The full values, whereas the defaults decrease towards a sphere: these follow the falls better
+    // (docs/studies/falls).
     const Matrix3d areas = projected_area_tensor(body);
     shared_.drag_in_motion = 0.5 * usual_drag_in_motion * (areas + areas.transpose());
     shared_.drag_in_spin = 0.5 * usual_drag_in_spin * (areas + areas.transpose());
@@ -113,7 +114,7 @@ void MotionParameters::leave_out(const std::string& name) {
     if (name == drag_in_motion) shared_.drag_in_motion.setZero();
     if (name == drag_in_spin) shared_.drag_in_spin.setZero();
     if (name == transport_of_rotation) shared_.rotational_transport = 0.0;
-    // Transport's numbers are added to the added mass; as in potential flow there is none.
+    // Transport's numbers are added to the added mass; in potential flow there is no transport.
     for (Tensor& tensor : tensors_) {
         if (name == "transport" && tensor.member == &DynamicCoefficients::transport) tensor.offset.setZero();
     }

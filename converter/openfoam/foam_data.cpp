@@ -1,5 +1,3 @@
-#include "converter/openfoam/foam_data.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -10,17 +8,18 @@
 
 #include <fmt/format.h>
 
+#include "converter/openfoam/foam_file.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 
 namespace samara {
 namespace {
 
-/// What makes OpenFOAM load a library or compile code, as the name of an entry or the start of a type.
+/// Names of entries, and the start of a type, that make OpenFOAM load a library or compile code.
 constexpr std::string_view names_of_code[] = {"libs", "functionObjectLibs", "functions", "fvOptions", "code"};
 constexpr std::string_view type_of_code = "coded";
 
-/// Bytes of a value in a binary list: so many labels, or so many scalars.
+/// The size of a value in a binary list, in labels or scalars.
 struct BinaryValue {
     std::string_view name;
     std::size_t labels;
@@ -31,7 +30,7 @@ constexpr BinaryValue values_of_lists[] = {{"List<label>", 1, 0},      {"List<sc
                                            {"List<vector>", 0, 3},     {"List<tensor>", 0, 9},
                                            {"List<symmTensor>", 0, 6}, {"List<sphericalTensor>", 0, 1}};
 
-/// Files that are a list, or two in a row, without its type before it.
+/// Classes of files that consist of a list, or two, without their type.
 constexpr BinaryValue values_of_classes[] = {
     {"labelList", 1, 0}, {"faceCompactList", 1, 0}, {"scalarField", 0, 1}, {"vectorField", 0, 3}};
 
@@ -41,7 +40,7 @@ const BinaryValue* found_in(std::string_view name, const BinaryValue* first, con
     return found == last ? nullptr : found;
 }
 
-/// Reads a file as OpenFOAM's own scanner does: tokens, comments, quoted texts and blocks of bytes.
+/// Scans a file as OpenFOAM does: tokens, comments, quoted texts and blocks of bytes.
 class DataScan {
   public:
     DataScan(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
@@ -67,7 +66,7 @@ class DataScan {
                                  1 + std::count(text_.begin(), end, '\n'), what));
     }
 
-    /// Whether anything is left.
+    /// Passes over blanks and comments; returns whether anything is left.
     bool skip_blanks() {
         while (place_ < text_.size()) {
             const std::string_view rest = text_.substr(place_);
@@ -95,7 +94,7 @@ class DataScan {
         return text_.substr(start, place_ - start);
     }
 
-    /// A text in quotes is a value; as a name it is a pattern that may stand for any other.
+    /// Skips a text in quotes, which is a value; as a name it would be a pattern that matches others.
     void pass_quoted() {
         for (++place_; place_ < text_.size() && here() != '"'; ++place_) {
             if (here() == '\\') ++place_;
@@ -129,7 +128,7 @@ class DataScan {
     [[nodiscard]] bool is_plain_list() const { return is_binary_ && of_class_ != nullptr; }
     void skip_plain_list() { skip_values(*of_class_); }
 
-    /// Passes over "COUNT(BYTES)"; what is no such list is left to be read as tokens.
+    /// Passes over "COUNT(BYTES)"; anything else is left to be read as tokens.
     void skip_values(const BinaryValue& value) {
         if (!skip_blanks()) return;
         std::size_t count = 0;
@@ -149,7 +148,7 @@ class DataScan {
         if (place_ < text_.size() && here() != ')') throw error("holds a binary list that does not end");
     }
 
-    /// The value of an entry of the header.
+    /// Reads the value of an entry of the header.
     std::string_view header_value() {
         skip_blanks();
         const std::size_t start = place_;

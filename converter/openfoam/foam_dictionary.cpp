@@ -26,7 +26,7 @@ std::optional<double> take_number(std::string_view& text) {
     return value;
 }
 
-// Dictionaries within dictionaries: no case of OpenFOAM comes near it.
+// The deepest nesting of dictionaries, far beyond that of any case.
 constexpr int deepest = 100;
 
 }  // namespace

@@ -20,23 +20,23 @@ class FoamDictionary {
     /// Reads the file, with or without a FoamFile header. Throws Error with file and line.
     explicit FoamDictionary(const std::filesystem::path& file);
 
-    /// The file that it is from.
+    /// The file that the dictionary was read from.
     [[nodiscard]] const std::filesystem::path& file() const { return path_; }
     [[nodiscard]] bool has(const std::string& name) const { return entries_.contains(name); }
-    /// The entry's text. Throws Error where there is none.
+    /// Returns the entry's text. Throws Error where there is none.
     [[nodiscard]] const std::string& text(const std::string& name) const;
-    /// The entry as a number. Throws Error where it is none.
+    /// Returns the entry as a number. Throws Error where it is none.
     [[nodiscard]] double number(const std::string& name) const;
-    /// The entry "(x y z)". Throws Error where it is not three numbers.
+    /// Returns the entry "(x y z)". Throws Error where it is not three numbers.
     [[nodiscard]] Vector3d vector(const std::string& name) const;
-    /// The dictionaries within, by their names.
+    /// The nested dictionaries, by their names.
     [[nodiscard]] const std::map<std::string, FoamDictionary>& dictionaries() const { return dictionaries_; }
-    /// The files that it includes, as it names them.
+    /// The names of the files that the dictionary includes.
     [[nodiscard]] const std::vector<std::string>& included() const { return included_; }
 
   private:
     FoamDictionary(std::filesystem::path path, FoamScanner& scanner, int depth);
-    /// Reads up to the end of the file, or of the dictionary within.
+    /// Reads up to the end of the file or nested dictionary.
     void read(FoamScanner& scanner, int depth);
     [[nodiscard]] std::string place_of(const std::string& name) const;
 
@@ -46,7 +46,7 @@ class FoamDictionary {
     std::vector<std::string> included_;
 };
 
-/// The three numbers of "(x y z)"; nothing where it is not that.
+/// Returns the three numbers of "(x y z)"; nothing for other texts.
 std::optional<Vector3d> foam_vector(std::string_view text);
 
 }  // namespace samara

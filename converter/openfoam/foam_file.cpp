@@ -40,8 +40,7 @@ void skip_entry(FoamScanner& scanner) {
     }
 }
 
-/// Versions differ in what else the header holds (arch, note, location, a dictionary meta) and in what they
-/// leave out.
+/// Reads the header; other entries (arch, note, location, a dictionary meta) differ between versions.
 FoamHeader read_header(FoamScanner& scanner) {
     if (scanner.at_end() || scanner.peek() != 'F' || scanner.word() != "FoamFile") {
         throw scanner.error("is not an OpenFOAM file: it does not begin with FoamFile");
@@ -126,13 +125,13 @@ template <typename Value>
 std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
     if (scanner.peek() == 'L') scanner.word();
     const std::int64_t stated = scanner.integer();
-    // A cell takes more than a byte: a larger count is damage, not a reason to ask for all memory.
+    // A larger count is damage, and must not exhaust the memory.
     if (stated < 0 || stated > (std::int64_t{1} << 33)) {
         throw scanner.error(fmt::format("a list cannot have {} values", stated));
     }
     const auto count = static_cast<std::size_t>(stated);
     if (scanner.accept('{')) {
-        // No byte of the file vouches for the count: a few would ask for all memory.
+        // The count is not limited by the size of the file, and must not exhaust the memory.
         constexpr std::size_t most = 32'000'000;
         if (count > most) {
             throw scanner.error(fmt::format("a list in braces may have {} values, not {}", most, count));
@@ -163,35 +162,36 @@ std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
 template <typename Value>
 FoamField<Value> read_internal_field(FoamScanner& scanner, const FoamHeader& header) {
     FoamField<Value> field;
-    const std::string kind(scanner.word());
-    if (kind == "uniform") {
+    const std::string type(scanner.word());
+    if (type == "uniform") {
         field.uniform = true;
         field.values.push_back(read_value<Value>(scanner));
-    } else if (kind == "nonuniform") {
+    } else if (type == "nonuniform") {
         field.values = read_list<Value>(scanner, header);
     } else {
-        throw scanner.error(fmt::format("expected 'uniform' or 'nonuniform', found '{}'", kind));
+        throw scanner.error(fmt::format("expected 'uniform' or 'nonuniform', found '{}'", type));
     }
     scanner.expect(';');
     return field;
 }
 
 Error wrong_class(const FoamScanner& scanner, const FoamHeader& header, const std::string& wanted) {
-    return scanner.error(fmt::format(
-        "holds a {}, not {}", header.class_name.empty() ? "thing of no class" : header.class_name, wanted));
+    return scanner.error(fmt::format("holds a {}, not {}",
+                                     header.class_name.empty() ? "file without a class" : header.class_name,
+                                     wanted));
 }
 
 template <typename Value>
 FoamField<Value> read_field(const std::filesystem::path& file, const std::string& class_name) {
     FoamScanner scanner(file);
     const FoamHeader header = read_header(scanner);
-    // A field over the cells alone has the class of the field with "::Internal" after it.
+    // A field on cells only has the class of the field with "::Internal" after it.
     if (header.class_name != class_name && !header.class_name.starts_with(class_name + "::")) {
         throw wrong_class(scanner, header, "a " + class_name);
     }
     while (!scanner.at_end()) {
         const std::string_view key = scanner.word();
-        // A field over the cells alone (::Internal) names its values "value".
+        // A field on cells only (::Internal) names its values "value".
         if (key == "internalField" || key == "value") return read_internal_field<Value>(scanner, header);
         if (key.starts_with('#')) {
             scanner.word();  // the file that a directive names

@@ -9,13 +9,13 @@
 
 namespace samara {
 
-/// The dictionary FoamFile at the top of every OpenFOAM file, as far as reading it needs it.
+/// The entries of the dictionary FoamFile at the top of an OpenFOAM file that are needed to read it.
 struct FoamHeader {
     std::string format = "ascii";  ///< or "binary"
     std::string class_name;        ///< "volScalarField", ...
     std::string object;            ///< the name of what the file holds
-    int label_bytes = 4;           ///< of a binary file's whole numbers
-    int scalar_bytes = 8;          ///< of a binary file's numbers
+    int label_bytes = 4;           ///< size of whole numbers in a binary file
+    int scalar_bytes = 8;          ///< size of numbers in a binary file
 };
 
 /// The values of a field inside the mesh: one for each cell, or one for all.
@@ -31,22 +31,23 @@ struct FoamField {
 
 // All files are read in ASCII and in binary of this machine's byte order, with labels of 32 or 64 and scalars
 // of 32 or 64 bits, compressed by gzip or not, with the headers of OpenFOAM v1912 to v2312 and 8 to 11.
-// Faults are Errors that name the file and the line.
+// Errors name the file and the line.
 
-/// The internalField of a volScalarField (or volScalarField::Internal) in the units of the file; nothing
-/// after it is read. Throws Error where the file is no such field.
+/// Reads the internalField of a volScalarField (or volScalarField::Internal) in the units of the file; what
+/// follows it is not read. Throws Error where the file is no such field.
 FoamField<double> read_scalar_field(const std::filesystem::path& file);
 
-/// The same for a volVectorField.
+/// Reads the internalField of a volVectorField like read_scalar_field().
 FoamField<Vector3d> read_vector_field(const std::filesystem::path& file);
 
-/// The cells of the zone `name` of a cellZones file. Throws Error as above, and where it has no such zone.
+/// Reads the cells of the zone `name` of a cellZones file. Throws Error where the file is damaged or has no
+/// such zone.
 std::vector<std::int64_t> read_cell_zone(const std::filesystem::path& file, const std::string& name);
 
-/// A labelList: the file owner or neighbour of a mesh.
+/// Reads a labelList: the file owner or neighbour of a mesh.
 std::vector<std::int64_t> read_labels(const std::filesystem::path& file);
 
-/// The file points of a mesh.
+/// Reads the file points of a mesh.
 std::vector<Vector3d> read_points(const std::filesystem::path& file);
 
 /// The faces of a mesh: face i has the points points[starts[i]] to points[starts[i + 1] - 1].
@@ -57,7 +58,14 @@ struct FoamFaces {
     [[nodiscard]] std::size_t size() const { return starts.size() - 1; }
 };
 
-/// The file faces of a mesh (faceList or faceCompactList).
+/// Reads the file faces of a mesh (faceList or faceCompactList).
 FoamFaces read_faces(const std::filesystem::path& file);
+
+/// Throws Error naming file and line where a file that OpenFOAM reads as a field, a mesh or a state holds
+/// more than data: a directive (#calc, #codeStream, #include, ...), an expansion ($...), a library or code to
+/// load, or a type of list or class that no solver writes there. Files written by a solver hold none of
+/// these, and nothing else in such a file makes OpenFOAM run or read anything. A file that ends early passes:
+/// its reader reports it.
+void require_foam_data(const std::filesystem::path& file);
 
 }  // namespace samara

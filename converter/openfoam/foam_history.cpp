@@ -1,18 +1,39 @@
 #include "converter/openfoam/foam_history.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "converter/openfoam/foam_bytes.hpp"
 #include "converter/openfoam/foam_scanner.hpp"
-#include "converter/openfoam/time_folders.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
+
+std::optional<double> time_of(const std::filesystem::path& folder) {
+    const std::string name = folder.filename().string();
+    double time = 0.0;
+    const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), time);
+    const bool is_number = status == std::errc() && end == name.data() + name.size() && std::isfinite(time);
+    return is_number ? std::optional(time) : std::nullopt;
+}
+
+std::vector<TimeFolder> time_folders(const std::filesystem::path& folder) {
+    std::vector<TimeFolder> folders;
+    if (!std::filesystem::is_directory(folder)) return folders;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::optional<double> time = time_of(entry.path());
+        if (time && entry.is_directory()) folders.push_back({*time, entry.path()});
+    }
+    std::sort(folders.begin(), folders.end(),
+              [](const TimeFolder& a, const TimeFolder& b) { return a.time < b.time; });
+    return folders;
+}
+
 namespace {
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -26,7 +47,7 @@ std::vector<std::string_view> split(std::string_view line) {
     return words;
 }
 
-/// Without the brackets that enclose several columns, as in "(total_x"; those of "volAverage(k)" stay.
+/// Removes the brackets that enclose several columns, as in "(total_x"; those of "volAverage(k)" stay.
 std::string_view without_vector_brackets(std::string_view word) {
     while (word.starts_with('(')) word.remove_prefix(1);
     const auto unbalanced = [](std::string_view text) {
@@ -40,8 +61,8 @@ void append_vector(std::vector<std::string>& names, const std::string& vector) {
     for (const char* const axis : {"_x", "_y", "_z"}) names.push_back(vector + axis);
 }
 
-/// The names of columns in a heading such as "Time (total_x total_y total_z)", "Time volAverage(k)", or
-/// "Time forces(pressure viscous) moments(pressure viscous)", whose words in brackets are vectors.
+/// Returns the names of columns in a heading such as "Time (total_x total_y total_z)", "Time volAverage(k)",
+/// or "Time forces(pressure viscous) moments(pressure viscous)", whose words in brackets are vectors.
 std::vector<std::string> column_names(std::string_view comment) {
     std::vector<std::string> names;
     std::string group;  // "forces_" between its brackets
@@ -76,8 +97,9 @@ std::vector<double> numbers_in(std::string_view line) {
     return row;
 }
 
-/// A heading may name a vector by one word, as that of sixDoFRigidBodyState does: where the first row has as
-/// many numbers and brackets around three as there are names, the names of the latter become three.
+/// Replaces the names of vectors by those of their components, as for sixDoFRigidBodyState, whose heading has
+/// one word for each vector: where the first row has as many numbers and bracketed triples as there are
+/// names.
 void name_components(std::vector<std::string>& columns, std::string_view row) {
     std::vector<std::string> named;
     std::size_t column = 0;
@@ -111,7 +133,7 @@ void append_row(FoamHistory& history, std::vector<double> row) {
     history.rows.push_back(std::move(row));
 }
 
-/// As read_history, but a file without values is none of its concern.
+/// Reads a file like read_history(), which may have no values.
 FoamHistory read_rows(const std::filesystem::path& file, CutLine cut_line) {
     const FoamBytes bytes = read_foam_bytes(file);
     const std::string_view text = bytes.text;
@@ -147,7 +169,7 @@ void require_rows(const FoamHistory& history) {
     }
 }
 
-/// A run begins after the time from which it starts: else its file is a copy of another run's.
+/// Throws where a run begins before its start time: then its file is a copy of another run's.
 void require_times_of_run(const FoamHistory& part, double run_start) {
     const double first = part.rows.front().front();
     if (first >= run_start * (1.0 - 1e-6)) return;

@@ -11,7 +11,7 @@
 namespace samara {
 namespace {
 
-/// The file boundary.
+/// Reads the file boundary.
 std::vector<FoamPatch> read_patches(const std::filesystem::path& file) {
     FoamScanner scanner(file);
     if (scanner.word() != "FoamFile") throw scanner.error("is no OpenFOAM file");
@@ -101,13 +101,13 @@ PolyMesh read_poly_mesh(const std::filesystem::path& poly_mesh) {
 
 namespace {
 
-/// One face as a cell sees it.
+/// A face of a cell.
 struct CellFace {
-    std::size_t cell;  ///< its place among the cells asked for
+    std::size_t cell;  ///< index among the requested cells
     FaceGeometry geometry;
 };
 
-/// For each cell of the mesh its place among the cells asked for, or -1.
+/// Returns for each cell of the mesh its index among the requested cells, or -1.
 std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& cells, std::int64_t mesh_cells,
                                     const std::filesystem::path& poly_mesh) {
     std::vector<std::int64_t> places(static_cast<std::size_t>(mesh_cells), -1);
@@ -160,7 +160,7 @@ std::vector<double> cell_volumes(const std::filesystem::path& poly_mesh,
     std::vector<CellFace> seen;
     std::vector<Vector3d> middles(cells.size(), Vector3d::Zero());
     std::vector<int> counts(cells.size(), 0);
-    const auto see = [&](std::int64_t place, const FaceGeometry& geometry) {
+    const auto add_face = [&](std::int64_t place, const FaceGeometry& geometry) {
         const auto cell = static_cast<std::size_t>(place);
         seen.push_back({cell, geometry});
         middles[cell] += geometry.center;
@@ -171,8 +171,8 @@ std::vector<double> cell_volumes(const std::filesystem::path& poly_mesh,
         const std::int64_t outside = face < neighbour.size() ? place_of(neighbour[face]) : -1;
         if (inside < 0 && outside < 0) continue;
         const FaceGeometry geometry = face_geometry(corners_of(faces, face, points, poly_mesh));
-        if (inside >= 0) see(inside, geometry);
-        if (outside >= 0) see(outside, {geometry.center, -geometry.area});
+        if (inside >= 0) add_face(inside, geometry);
+        if (outside >= 0) add_face(outside, {geometry.center, -geometry.area});
     }
 
     std::vector<double> volumes(cells.size(), 0.0);
@@ -181,6 +181,34 @@ std::vector<double> cell_volumes(const std::filesystem::path& poly_mesh,
         volumes[face.cell] += face.geometry.area.dot(face.geometry.center - middle) / 3.0;
     }
     return volumes;
+}
+
+namespace {
+
+bool is_word(const std::string& name) {
+    return name.find_first_of("*+?[]{}|^$\\\\()") == std::string::npos;
+}
+
+}  // namespace
+
+std::optional<double> area_of_patches(const std::filesystem::path& poly_mesh, const std::vector<std::string>& patches) {
+    for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"}) {
+        if (!foam_file_exists(poly_mesh / name)) return std::nullopt;
+    }
+    const PolyMesh mesh = read_poly_mesh(poly_mesh);
+    double area = 0.0;
+    for (const std::string& pattern : patches) {
+        const bool is_start = pattern.ends_with(".*");
+        const std::string start = is_start ? pattern.substr(0, pattern.size() - 2) : pattern;
+        if (!is_word(start)) return std::nullopt;
+        for (const FoamPatch& patch : mesh.patches) {
+            if (is_start ? !patch.name.starts_with(start) : patch.name != start) continue;
+            for (std::size_t i = 0; i < patch.size; ++i) {
+                area += face_geometry(mesh.corners(patch.start + i)).area.norm();
+            }
+        }
+    }
+    return area > 0.0 ? std::optional(area) : std::nullopt;
 }
 
 }  // namespace samara

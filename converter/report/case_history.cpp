@@ -1,18 +1,17 @@
-#include "converter/report/case_history.hpp"
-
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <string>
 
 #include "converter/cases/load_fluctuations.hpp"
+#include "converter/report/case_parts.hpp"
 
 namespace samara {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The solver's log; none where the folder has none.
+/// Returns the solver's log; an empty path where the folder has none.
 fs::path solver_log(const fs::path& folder) {
     for (const char* name : {"log.simpleFoam", "log.pimpleFoam"}) {
         if (fs::exists(folder / name)) return folder / name;
@@ -20,7 +19,7 @@ fs::path solver_log(const fs::path& folder) {
     return {};
 }
 
-/// The first residual of the pressure after each "Time = ".
+/// Reads the first residual of the pressure after each "Time = ".
 void read_residuals(const fs::path& log, CaseHistory& history) {
     std::ifstream stream(log);
     constexpr std::string_view time = "Time = ";

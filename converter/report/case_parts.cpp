@@ -9,12 +9,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_mesh.hpp"
 #include "converter/cases/case_reduction.hpp"
-#include "converter/cases/mesh_section.hpp"
-#include "converter/cases/wall_spacing.hpp"
 #include "converter/falls/fall_identification.hpp"
-#include "converter/report/case_history.hpp"
 #include "samara/analysis/comparison/comparison.hpp"
 #include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
@@ -31,17 +28,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using Told = std::function<void(double share)>;
+using ProgressCall = std::function<void(double share)>;
 
-constexpr std::size_t most_meshes = 4;     // that one picture shows
+constexpr std::size_t most_meshes = 4;     // in one picture
 constexpr std::size_t most_pieces = 9000;  // of a drawn mesh
-constexpr double around_body = 1.7;        // of what is shown, over the body
+constexpr double around_body = 1.7;        // size of the drawn region relative to the body
 constexpr double closer = 0.8;
 constexpr double beyond = 1.3;         // pieces that cross the panel reach out of it
 constexpr double off_symmetry = 0.01;  // L: meshes have faces in planes of symmetry
 constexpr double good_fall = 0.1;      // difference of descent speeds
 constexpr double poor_fall = 0.3;
-// How far swings may be apart, as 'samara compare' judges them.
+// Relative differences of oscillations that 'samara compare' accepts.
 constexpr double same_frequency = 0.2;
 constexpr double same_amplitude = 0.3;
 
@@ -80,22 +77,22 @@ void require_same_body(const fs::path& folder, const Body& body) {
                             folder.string()));
 }
 
-/// What each part reads of the folder.
+/// Reads the parts of the report from the folder of cases.
 class Folder {
   public:
     Folder(fs::path path, const Body& body, CasesReport& report)
         : path_(std::move(path)), body_(body), plan_(read_case_plan(path_)), report_(report) {}
 
-    void tell_meshes(const Told& told);
-    void tell_histories(const Told& told);
-    void tell_falls(const Told& told);
+    void add_meshes(const ProgressCall& progress);
+    void add_histories(const ProgressCall& progress);
+    void add_falls(const ProgressCall& progress);
 
   private:
-    std::vector<CaseMesh> meshes(const Told& told);
+    std::vector<CaseMesh> meshes(const ProgressCall& progress);
     [[nodiscard]] Json meshes_picture(const std::vector<CaseMesh>& meshes) const;
-    Rows spacing_rows(const std::vector<CaseMesh>& meshes, const Told& told);
+    Rows spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCall& progress);
     [[nodiscard]] Json drawn(const CaseMesh& mesh, std::size_t count) const;
-    /// What cannot be read of a case or mesh is missing in the report.
+    /// Calls `work`; an Error is listed in the report as a missing part.
     template <typename Work>
     void or_missing(const Work& work) {
         try {
@@ -114,7 +111,7 @@ class Folder {
     CasesReport& report_;
 };
 
-std::vector<CaseMesh> Folder::meshes(const Told& told) {
+std::vector<CaseMesh> Folder::meshes(const ProgressCall& progress) {
     std::set<std::string> names;
     for (const PlannedCase& one : plan_.cases) names.insert(one.mesh);
     std::vector<CaseMesh> meshes;
@@ -124,13 +121,13 @@ std::vector<CaseMesh> Folder::meshes(const Told& told) {
             meshes.push_back({name, record_in(path_ / name / "mesh.json"),
                               read_poly_mesh(path_ / name / "constant/polyMesh")});
         });
-        told(static_cast<double>(++done) / static_cast<double>(names.size()));
+        progress(static_cast<double>(++done) / static_cast<double>(names.size()));
     }
     std::ranges::sort(meshes, {}, cells_of);
     return meshes;
 }
 
-/// The pieces as rows of x, y of both ends, over the body's length.
+/// Returns the pieces as rows of x, y of both ends, in units of L.
 Json as_json(const std::vector<MeshSection::Piece>& pieces) {
     Json rows = Json::array();
     for (const auto& [from, to] : pieces) rows.push_back({from.x(), from.y(), to.x(), to.y()});
@@ -170,12 +167,12 @@ Json Folder::meshes_picture(const std::vector<CaseMesh>& meshes) const {
     return picture;
 }
 
-Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const Told& told) {
+Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCall& progress) {
     Rows rows;
     std::optional<WallSpacing> worst;
     std::size_t done = 0;
     for (const PlannedCase& one : plan_.cases) {
-        told(static_cast<double>(++done) / static_cast<double>(plan_.cases.size()));
+        progress(static_cast<double>(++done) / static_cast<double>(plan_.cases.size()));
         const auto mesh = std::ranges::find(meshes, one.mesh, &CaseMesh::name);
         if (mesh == meshes.end() || !solved(one.name) || plan_.solved_by_user) continue;
         or_missing([&] {
@@ -207,8 +204,8 @@ Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const Told& told)
     return rows;
 }
 
-void Folder::tell_meshes(const Told& told) {
-    const std::vector<CaseMesh> all = meshes([&](double share) { told(0.3 * share); });
+void Folder::add_meshes(const ProgressCall& progress) {
+    const std::vector<CaseMesh> all = meshes([&](double share) { progress(0.3 * share); });
     if (all.empty()) return;
     Rows rows;
     for (const CaseMesh& mesh : all) {
@@ -221,8 +218,8 @@ void Folder::tell_meshes(const Told& told) {
                      table_block({"mesh", "cells", "checkMesh", "remedy",
                                   "area of the body over the true one", "most non-orthogonality (°)"},
                                  rows)}};
-    told(0.5);
-    const Rows spacing = spacing_rows(all, [&](double share) { told(0.5 + 0.5 * share); });
+    progress(0.5);
+    const Rows spacing = spacing_rows(all, [&](double share) { progress(0.5 + 0.5 * share); });
     if (!spacing.empty()) {
         part.blocks.push_back(folded_block(
             fmt::format("y+ of the cells along the body, of {} cases", spacing.size()),
@@ -231,7 +228,7 @@ void Folder::tell_meshes(const Told& told) {
     report_.parts.push_back(std::move(part));
 }
 
-/// Some of many values, evenly.
+/// Returns every nth of many values.
 Json thinned(const std::vector<double>& values) {
     constexpr std::size_t most_points = 400;
     const std::size_t stride = 1 + values.size() / most_points;
@@ -249,12 +246,12 @@ Json as_json(const CaseHistory& history) {
             {"residuals", thinned(history.residuals)}};
 }
 
-void Folder::tell_histories(const Told& told) {
+void Folder::add_histories(const ProgressCall& progress) {
     Json histories = Json::array();
     Rows failed;
     std::size_t done = 0;
     for (const PlannedCase& one : plan_.cases) {
-        told(static_cast<double>(++done) / static_cast<double>(plan_.cases.size() + 1));
+        progress(static_cast<double>(++done) / static_cast<double>(plan_.cases.size() + 1));
         if (!solved(one.name)) {
             or_missing([&] {
                 const auto reason = failure_of(path_, one.name, one.mesh);
@@ -272,7 +269,7 @@ void Folder::tell_histories(const Told& told) {
     }
     if (!failed.empty()) part.blocks.push_back(table_block({"not solved", "why"}, failed));
     if (!part.blocks.empty()) report_.parts.push_back(std::move(part));
-    told(1.0);
+    progress(1.0);
 }
 
 std::string metrics_of(const Measures& measures) {
@@ -282,13 +279,13 @@ std::string metrics_of(const Measures& measures) {
                        name_of(measures.regime));
 }
 
-/// How far the runtime's swings are from those of the solved falls, at most.
-struct SwingsApart {
+/// The largest differences between the oscillations of the runtime and of the solved falls.
+struct OscillationErrors {
     double frequency = 0.0;  // relative
     double amplitude = 0.0;  // relative, beyond one degree
-    std::string regimes;     // of the first fall that is of another one
+    std::string regimes;     // message of the first fall whose regimes differ
 
-    void add(const FlownFall& fall) {
+    void add(const SimulatedFall& fall) {
         const Measures& solved = fall.solved;
         const Measures& flown = fall.flown;
         if (solved.frequency && flown.frequency) {
@@ -310,7 +307,7 @@ struct SwingsApart {
     }
 };
 
-/// A fall as 'samara compare' draws it: paths, inclination, spectra and distributions.
+/// Returns the picture of a fall that 'samara compare' draws: paths, inclination, spectra and distributions.
 Json fall_picture(const Body& body, const FallRecord& record) {
     const TemporaryFolder folder;
     const FallMotions motions = fall_motions(body, record);
@@ -320,35 +317,35 @@ Json fall_picture(const Body& body, const FallRecord& record) {
     const MotionReader solved(folder / "solved");
     const std::string& name = record.fall.name;
     FallChoice one;
-    one.name = name + ", flown";
+    one.name = name + ", simulated";
     one.file = &flown;
     FallChoice other;
     other.name = name + ", solved";
     other.file = &solved;
     const Comparison comparison = compare(one, other, {}, [](double, double) {});
-    return picture_block(name + ": its path, inclination and swings, solved and flown",
+    return picture_block(name + ": its path, inclination and oscillations, solved and simulated",
                          comparison_picture(comparison, one.name, "solved by full CFD"));
 }
 
-void Folder::tell_falls(const Told& told) {
+void Folder::add_falls(const ProgressCall& progress) {
     Rows rows;
     std::vector<Json> pictures;
     double farthest = 0.0;
-    SwingsApart swings;
+    OscillationErrors oscillations;
     FallBalance worst;
     for (std::size_t i = 0; i < plan_.falls.size(); ++i) {
         const PlannedFall& planned = plan_.falls[i];
-        told(static_cast<double>(i) / static_cast<double>(plan_.falls.size()));
+        progress(static_cast<double>(i) / static_cast<double>(plan_.falls.size()));
         or_missing([&] {
             if (const auto reason = failure_of(path_, planned.name, planned.mesh)) {
                 rows.push_back({planned.name, "failed: " + *reason});
                 return;
             }
             const FallRecord record = read_fall_record(path_ / planned.name);
-            const FlownFall flown = fly_fall(body_, record);
+            const SimulatedFall flown = simulate_fall(body_, record);
             const double difference = std::abs(flown.flown.descent_speed / flown.solved.descent_speed - 1.0);
             farthest = std::max(farthest, std::isfinite(difference) ? difference : 1.0);
-            swings.add(flown);
+            oscillations.add(flown);
             worst = {std::max(worst.force, flown.balance.force),
                      std::max(worst.moment, flown.balance.moment)};
             rows.push_back(
@@ -358,15 +355,14 @@ void Folder::tell_falls(const Told& told) {
             pictures.push_back(fall_picture(body_, record));
         });
     }
-    told(1.0);
+    progress(1.0);
     if (rows.empty()) return;
     ReportPart part{
-        "The falls, solved and flown",
-        {text_block(
-             "Descent speed, frequency, inclination that 95 % are below, rms angular speed and regime: of "
-             "the "
-             "free falls in full CFD, and of the runtime's flights from the same starts with this file."),
-         table_block({"fall", "solved", "flown", "descent speeds differ by",
+        "The falls, solved and simulated",
+        {text_block("Descent speed, frequency, inclination that 95 % are below, rms angular speed and "
+                    "regime: of the free falls "
+                    "in full CFD, and of the runtime's simulations from the same starts with this file."),
+         table_block({"fall", "solved", "simulated", "descent speeds differ by",
                       "momenta balance to (force, moment)", "density kg/m³"},
                      rows)}};
     part.blocks.insert(part.blocks.end(), pictures.begin(), pictures.end());
@@ -377,11 +373,11 @@ void Folder::tell_falls(const Told& told) {
              : farthest <= poor_fall ? Grade::limited
                                      : Grade::bad,
              "falls",
-             fmt::format("flown from the starts of the solved falls, descent speeds differ by up to {}",
+             fmt::format("simulated from the starts of the solved falls, descent speeds differ by up to {}",
                          per_cent(farthest))});
-        report_.findings.push_back(swings.finding());
+        report_.findings.push_back(oscillations.finding());
         report_.findings.push_back(
-            {is_doubtful(worst) ? Grade::limited : Grade::good, "balance",
+            {is_unbalanced(worst) ? Grade::limited : Grade::good, "balance",
              fmt::format("the solved falls' momenta balance to {} (force) and {} (moment)",
                          per_cent(worst.force), per_cent(worst.moment))});
     }
@@ -389,13 +385,13 @@ void Folder::tell_falls(const Told& told) {
 
 }  // namespace
 
-CasesReport read_cases_for_report(const fs::path& folder, const Body& body, const Told& progress) {
+CasesReport read_cases_for_report(const fs::path& folder, const Body& body, const ProgressCall& progress) {
     require_same_body(folder, body);
     CasesReport report;
     Folder read(folder, body, report);
-    read.tell_meshes([&](double share) { progress(0.6 * share); });
-    read.tell_histories([&](double share) { progress(0.6 + 0.2 * share); });
-    read.tell_falls([&](double share) { progress(0.8 + 0.2 * share); });
+    read.add_meshes([&](double share) { progress(0.6 * share); });
+    read.add_histories([&](double share) { progress(0.6 + 0.2 * share); });
+    read.add_falls([&](double share) { progress(0.8 + 0.2 * share); });
     return report;
 }
 

@@ -19,7 +19,7 @@ void require_subdivisions(int subdivisions) {
     if (subdivisions < 1) throw Error(fmt::format("a map cannot have {} subdivisions", subdivisions));
 }
 
-/// The index of the node in this direction, or nothing where it falls between nodes.
+/// Returns the index of the node in this direction; nothing where it lies between nodes.
 std::optional<std::size_t> node_at(const Vector3d& direction, int subdivisions, double tolerance) {
     const Eigen::Vector2d place = octahedral_coordinates(direction);
     const auto nearest = [&](double coordinate) {
@@ -58,7 +58,7 @@ std::vector<Vector3d> arc_directions(const AxialArc& arc) {
     return directions;
 }
 
-/// Values within `tolerance` of -1, 0 or 1 made so.
+/// Rounds values within `tolerance` of -1, 0 or 1.
 template <typename Derived>
 typename Derived::PlainObject snapped(const Eigen::MatrixBase<Derived>& values, double tolerance) {
     return values.unaryExpr([tolerance](double value) {
@@ -77,9 +77,9 @@ std::vector<Matrix3d> elements_in_map_axes(const Symmetry& symmetry) {
     const double tolerance = direction_tolerance(symmetry);
     std::vector<Matrix3d> elements;
     for (const Matrix3d& element : symmetry.elements) {
-        const Matrix3d turned = symmetry.axes.transpose() * element * symmetry.axes;
-        const Matrix3d whole = turned.array().round();
-        elements.push_back((turned - whole).norm() < tolerance ? whole : turned);
+        const Matrix3d in_map_axes = symmetry.axes.transpose() * element * symmetry.axes;
+        const Matrix3d whole = in_map_axes.array().round();
+        elements.push_back((in_map_axes - whole).norm() < tolerance ? whole : in_map_axes);
     }
     return elements;
 }
@@ -98,7 +98,7 @@ double AxialArc::step_angle() const {
 
 Vector3d AxialArc::direction(int step) const {
     const double angle = step * step_angle();
-    // Rounding would leave 1e-17 where the arc meets a map axis.
+    // Rounding would leave 1e-17 where the arc crosses a map axis.
     return snapped(std::cos(angle) * axis + std::sin(angle) * across, 1e-15);
 }
 
@@ -147,10 +147,10 @@ std::vector<NodeImage> node_images(const Symmetry& symmetry, int subdivisions) {
 }
 
 Matrix3d element_to_required(const Symmetry& symmetry, const Vector3d& direction) {
-    const auto turn = [](const Vector3d& from, const Vector3d& to) {
+    const auto rotation = [](const Vector3d& from, const Vector3d& to) {
         return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
     };
-    if (symmetry.type == Symmetry::Type::spherical) return turn(direction, Vector3d::UnitX());
+    if (symmetry.type == Symmetry::Type::spherical) return rotation(direction, Vector3d::UnitX());
     const double tolerance = direction_tolerance(symmetry);
     if (symmetry.type == Symmetry::Type::axial) {
         const AxialArc arc = axial_arc(symmetry, 1);

@@ -7,58 +7,58 @@
 namespace samara {
 
 // Map axes are the columns of symmetry.axes: the axes of the octahedral map and of the cases. A direction is
-// that of the body's velocity relative to the fluid, a unit vector.
+// the unit vector of the body's velocity relative to the fluid.
 
-/// The directions (map axes) that must be solved so that the body's symmetry gives all nodes of the
+/// Returns the directions (map axes) that must be solved so that the body's symmetry gives all nodes of the
 /// octahedral map whose octahedron edges are cut into `subdivisions`:
 ///  - spherical: one, the map's first axis;
 ///  - axial: the points of axial_arc;
 ///  - finite: one node of each orbit under `symmetry.elements`, the largest in the order of (x, y, z), hence
 ///    with positive components where the symmetry allows it; largest first.
-/// An element that maps a node between nodes (a turn by a fifth, say) does not merge it with others.
-/// Deterministic. Throws Error where subdivisions < 1.
+/// An element that maps a node between nodes (such as a rotation by 72 degrees) does not merge it with
+/// others. Deterministic. Throws Error where subdivisions < 1.
 std::vector<Vector3d> required_directions(const Symmetry& symmetry, int subdivisions);
 
 /// Half a great circle from a body's axis of rotation, in even steps of the polar angle.
 struct AxialArc {
     Vector3d axis;    ///< the axis of rotation (map axes); polar angle 0
     Vector3d across;  ///< perpendicular to it: the arc's direction at 90 degrees
-    bool mirrored;    ///< a symmetry turns the axis round: the arc ends at 90 degrees, else at 180
+    bool mirrored;    ///< whether a symmetry reverses the axis: the arc ends at 90 degrees, else at 180
     int steps;        ///< `subdivisions` steps to 90 degrees, twice as many to 180
 
     [[nodiscard]] double step_angle() const;  ///< rad
-    /// The unit vector (map axes) after `step` of `steps`.
+    /// Returns the unit vector (map axes) after `step` of `steps`.
     [[nodiscard]] Vector3d direction(int step) const;
 };
 
-/// The arc that an axial body is solved on. `axes` may name the body's axis in any column.
+/// Returns the arc on which an axial body is solved. The body's axis may be any column of `axes`.
 AxialArc axial_arc(const Symmetry& symmetry, int subdivisions);
 
-/// The elements of the group in map axes. Those that permute the map's axes to within the accuracy of the
-/// symmetry do so exactly here.
+/// Returns the elements of the group in map axes. Those that permute the map's axes to within the accuracy of
+/// the symmetry do so exactly here.
 std::vector<Matrix3d> elements_in_map_axes(const Symmetry& symmetry);
 
-/// The index of node (row, column) among the (2 subdivisions + 1)^2 of the map; nodes that are one direction
-/// share the least.
+/// Returns the index of node (row, column) among the (2 subdivisions + 1)^2 of the map; nodes of the same
+/// direction share the smallest.
 std::size_t unique_node(int subdivisions, int row, int column);
 
-/// How a node of the map follows from a required direction: node = element * source.
+/// A node of the map as the image of a required direction: node = element * source.
 struct NodeImage {
     Vector3d source;   ///< one of required_directions
     Matrix3d element;  ///< map axes
 };
 
-/// One NodeImage for each node of the map, row by row, for a body of finite symmetry. Nodes that are the same
+/// Returns a NodeImage for each node of the map, row by row, for a body of finite symmetry. Nodes of the same
 /// direction have the same image.
 std::vector<NodeImage> node_images(const Symmetry& symmetry, int subdivisions);
 
-/// The orthogonal matrix (map axes) of the body's symmetry that brings a direction to where
-/// required_directions has those that are alike: of its images the largest in the order of (x, y, z), on the
-/// arc of a body of revolution, the map's first axis for a sphere.
+/// Returns the orthogonal matrix (map axes) of the body's symmetry that maps a direction to the equivalent
+/// one of required_directions(): of its images the largest in the order of (x, y, z), the one on the arc of a
+/// body of revolution, or the map's first axis for a sphere.
 Matrix3d element_to_required(const Symmetry& symmetry, const Vector3d& direction);
 
-/// The distance between unit vectors below which they are one direction: 1e-6, or the tolerance within which
-/// the symmetry itself was found, up to 1e-3.
+/// Returns the distance between unit vectors below which they are one direction: 1e-6, or the tolerance of
+/// the symmetry, up to 1e-3.
 double direction_tolerance(const Symmetry& symmetry);
 
 }  // namespace samara

@@ -16,7 +16,8 @@
 namespace samara {
 namespace {
 
-/// The errors of k and epsilon over k and epsilon, as those of their logarithms are to first order.
+/// Returns the errors with those of k and epsilon relative to k and epsilon, which to first order are those
+/// of the logarithms.
 LoadEntryError relative_to(const LoadEntry& entry, LoadEntryError error) {
     const bool turbulent = is_turbulent(entry);
     error.turbulent_kinetic_energy =
@@ -25,7 +26,8 @@ LoadEntryError relative_to(const LoadEntry& entry, LoadEntryError error) {
     return error;
 }
 
-/// What the symmetry forbids in each of the cases, which is taken from them (keep_symmetric_part).
+/// Removes the components that the symmetry forbids from the cases (keep_symmetric_part) and returns the
+/// added errors.
 std::vector<LoadEntryError> take_forbidden(const Symmetry& symmetry, std::vector<SolvedCase>& cases) {
     std::map<std::pair<CasePurpose, double>, std::vector<std::size_t>> sets;
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -44,7 +46,8 @@ std::vector<LoadEntryError> take_forbidden(const Symmetry& symmetry, std::vector
     return asymmetry;
 }
 
-/// The cases of one purpose at a Reynolds number; of purpose `mesh` those on the mesh of the first.
+/// Returns the cases of one purpose at a Reynolds number; for the purpose `mesh` those on the mesh of the
+/// first.
 ReynoldsTable table_of(CasePurpose purpose, double reynolds_number, const std::vector<SolvedCase>& cases,
                        const std::vector<LoadEntryError>& tail,
                        const std::vector<LoadEntryError>& asymmetry) {
@@ -78,9 +81,9 @@ const DirectionSample* sample_in(const std::vector<DirectionSample>& samples, co
     return found == samples.end() ? nullptr : &*found;
 }
 
-/// Adds to the cases on the mesh before the last the directions of the table that failed there: what the
-/// table has, less what the last mesh changes in the other directions. Else what the interpolation on the
-/// mesh before misses there would be taken for a change by the mesh.
+/// Adds to the cases on the mesh before the last the directions of the table that failed there: the table's
+/// value less the change by the last mesh, interpolated from the other directions. Otherwise the error of the
+/// interpolation on the mesh before would be taken for a change by the mesh.
 void add_failed_directions(const Symmetry& symmetry, const ReynoldsTable& table, ReynoldsTable& before) {
     std::vector<Vector3d> directions;
     std::vector<LoadEntry> changes;

@@ -13,13 +13,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The damping starts as Marquardt's does (SIAM J. Appl. Math. 11, 1963): at a hundredth of the diagonal. The
+// The damping starts like Marquardt's (SIAM J. Appl. Math. 11, 1963): at a hundredth of the diagonal. The
 // other numbers are chosen.
-constexpr double difference = 1e-3;  // of a parameter, over its deviation
-constexpr double least_gain = 1e-5;  // of the cost: below it the iterations end
+constexpr double difference = 1e-3;  // of a parameter, relative to its deviation
+constexpr double least_gain = 1e-5;  // relative, of the cost: below it the iterations end
 constexpr double first_damping = 1e-2;
 constexpr double least_damping = 1e-6;
-constexpr double largest_damping = 1e8;  // beyond it no step gains anything
+constexpr double largest_damping = 1e8;  // beyond it no step lowers the cost
 
 struct Point {
     VectorXd x;
@@ -37,12 +37,12 @@ Point point_at(const LeastSquaresProblem& problem, const VectorXd& x) {
     return point;
 }
 
-// Half the second derivatives of the prior, which is a diagonal, and the weights that Cauchy's loss and their
-// counts give the residuals.
+// Returns half the second derivatives of the prior, a diagonal matrix.
 VectorXd prior_of(const LeastSquaresProblem& problem) {
     return problem.prior_weight * problem.deviation.cwiseAbs2().cwiseInverse();
 }
 
+// Returns the weights of the residuals by Cauchy's loss and their counts.
 VectorXd weights_of(const LeastSquaresProblem& problem, const VectorXd& residuals) {
     const VectorXd weights = (1.0 + residuals.array().square() / (problem.scale * problem.scale)).inverse();
     return problem.counts.size() == 0 ? weights : VectorXd(weights.cwiseProduct(problem.counts));
@@ -63,7 +63,7 @@ MatrixXd jacobian(const LeastSquaresProblem& problem, const Point& point) {
     return columns;
 }
 
-// The parameters that the downhill direction does not push beyond a bound.
+// Returns the parameters that the descent direction does not push beyond a bound.
 std::vector<Eigen::Index> free_parameters(const LeastSquaresProblem& problem, const VectorXd& x,
                                           const VectorXd& gradient) {
     std::vector<Eigen::Index> free;

@@ -29,7 +29,7 @@ bool all_turbulent(const std::vector<DirectionSample>& samples) {
     return turbulent != 0;
 }
 
-/// A mean of squares over the values that were left out.
+/// The mean square of leave-one-out errors.
 class MeanSquare {
   public:
     void add(double squares, int components, double spread) {
@@ -38,7 +38,7 @@ class MeanSquare {
         ++count_;
     }
     [[nodiscard]] double widened_root() const {
-        // From one value nothing can be learnt about the next: what is taken then is no estimate.
+        // One value says nothing about the next: it is taken as it is.
         if (count_ < 2) return std::sqrt(sum_);
         return student_widening(count_) * std::sqrt(sum_ / count_);
     }
@@ -52,7 +52,7 @@ double hypot_scaled(double scale, double spread, double other) {
     return std::hypot(scale * spread, other);
 }
 
-// A few samples tell which errs less only where the difference is large (docs/theory, "Between the cases").
+// With few samples only a large difference is significant (docs/theory, "Between the cases").
 bool halves_the_variance(double error, double other) {
     return error * error < 0.5 * other * other;
 }
@@ -94,11 +94,11 @@ ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSa
 void ReynoldsFit::set_values(const std::vector<DirectionSample>& samples) {
     values_.clear();
     for (const DirectionSample& sample : samples) {
-        values_.push_back(plus(in_logarithms(sample.entry), -1.0, beside(sample.direction)));
+        values_.push_back(plus(in_logarithms(sample.entry), -1.0, base_at(sample.direction)));
     }
 }
 
-LoadEntry ReynoldsFit::beside(const Vector3d& direction) const {
+LoadEntry ReynoldsFit::base_at(const Vector3d& direction) const {
     if (main_ != nullptr) return main_->logarithms_at(direction);
     LoadEntry trend;
     if (!force_has_trend_ && !moment_has_trend_) return trend;
@@ -109,7 +109,7 @@ LoadEntry ReynoldsFit::beside(const Vector3d& direction) const {
 }
 
 LoadEntry ReynoldsFit::logarithms_at(const Vector3d& direction) const {
-    return plus(fit_.at(values_, direction), 1.0, beside(direction));
+    return plus(fit_.at(values_, direction), 1.0, base_at(direction));
 }
 
 LoadEntry ReynoldsFit::at(const Vector3d& direction) const {
@@ -127,7 +127,7 @@ ErrorMetrics ReynoldsFit::left_out(const Symmetry& symmetry,
     MeanSquare dissipation_rate;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         LoadEntry error = plus(values_[i], -1.0, fit_.without(values_, i));
-        // A lone logarithm says nothing of its changes with the direction: a factor of e stands for them.
+        // A single sample says nothing about the change with the direction: a factor of e is assumed.
         if (values_.size() == 1 && main_ == nullptr) {
             error.turbulent_kinetic_energy = error.dissipation_rate = 1.0;
         }

@@ -10,15 +10,15 @@
 
 namespace samara {
 
-/// The loads of a body's potential flow (docs/surface-loads) over the direction, made exactly symmetric: what
-/// a table of few cases is interpolated beside (ReynoldsFit). Its levels may be a third off; what counts is
-/// how they change with the direction.
+/// The loads by a body's potential flow (docs/surface-loads) over the direction, made exactly symmetric: the
+/// trend from which a table of few cases is interpolated (ReynoldsFit). Its values may be off by a third;
+/// only their change with the direction matters.
 class SurfaceTrend {
   public:
-    /// Of a finite symmetry, at a Reynolds number.
+    /// Constructs the trend for a finite symmetry at a Reynolds number.
     SurfaceTrend(const SurfaceLoads& loads, const Symmetry& symmetry, double reynolds_number);
 
-    /// Force and moment as the tables' in a direction, all in map axes; k and epsilon are 0.
+    /// Returns force and moment coefficients in a direction, all in map axes; k and epsilon are 0.
     [[nodiscard]] LoadEntry at(const Vector3d& direction) const;
 
   private:
@@ -27,7 +27,7 @@ class SurfaceTrend {
     std::vector<Matrix3d> elements_;  ///< from map axes to the body axes of each image
 };
 
-/// One standard error for all components of a force or moment alike; those of k and epsilon are of their
+/// Standard errors, equal for all components of a force or moment; those of k and epsilon are of their
 /// natural logarithms.
 struct ErrorMetrics {
     double force = 0.0;
@@ -36,7 +36,8 @@ struct ErrorMetrics {
     double dissipation_rate = 0.0;
 };
 
-/// The entry with the natural logarithms of k and epsilon. Where either is 0 (laminar flow) both become 0.
+/// Returns the entry with the natural logarithms of k and epsilon. Where either is 0 (laminar flow) both
+/// become 0.
 LoadEntry in_logarithms(const LoadEntry& entry);
 
 /// Whether k and epsilon are positive.
@@ -44,11 +45,11 @@ bool is_turbulent(const LoadEntry& entry);
 
 /// The loads over the direction at one Reynolds number: a smooth function through its samples (map axes).
 /// Forces and moments are interpolated as they are, k and epsilon by their logarithms, so that they stay
-/// positive; in laminar flow they are 0 everywhere. Beside another, denser fit (`main`, at another Reynolds
-/// number or on a coarser mesh) it is main's value that stands, plus a smooth interpolation of the samples'
-/// differences from it: few samples then give a whole table. Likewise force and moment, each where leaving
-/// out each sample in turn halves the variance of its errors so, may stand beside the body's trend by its
-/// surface.
+/// positive; in laminar flow they are 0 everywhere. Relative to another, denser fit (`main`, at another
+/// Reynolds number or on a coarser mesh) the value is main's plus a smooth interpolation of the samples'
+/// differences from it, so that few samples give a whole table. Likewise force and moment may each be
+/// relative to the trend by the body's surface loads, where that halves the variance of the leave-one-out
+/// errors.
 class ReynoldsFit {
   public:
     /// `samples` already passed through keep_symmetric_part, at least one; no two directions are images of
@@ -56,20 +57,20 @@ class ReynoldsFit {
     ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
                 const ReynoldsFit* main);
 
-    /// The same of the main fit itself, beside the trend where there is one.
+    /// Constructs the main fit, relative to the trend where one is given.
     ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
                 std::optional<SurfaceTrend> trend);
 
-    /// The entry in a direction.
+    /// Returns the entry in a direction.
     [[nodiscard]] LoadEntry at(const Vector3d& direction) const;
 
-    /// The standard error of `at` from the interpolation alone. The interpolation's spread
-    /// (DirectionFit::spread) is scaled by leaving each sample out and predicting it from the others: the
-    /// mean square of (error / spread) over the samples, for each allowed component, widened for their small
-    /// number (student_widening). Beside a main fit, its errors and those of the differences in quadrature.
+    /// Returns the standard error of `at` by the interpolation alone. The interpolation's spread
+    /// (DirectionFit::spread) is scaled by leave-one-out errors: the mean square of (error / spread) over the
+    /// samples, for each allowed component, widened for their small number (student_widening). Relative to a
+    /// main fit, its errors and those of the differences are added in quadrature.
     [[nodiscard]] ErrorMetrics interpolation_error(const Vector3d& direction) const;
 
-    /// The standard errors of samples as they stand in a direction (DirectionFit::error_at).
+    /// Returns the standard errors of samples in a direction (DirectionFit::error_at).
     [[nodiscard]] LoadEntryError error_at(const std::vector<LoadEntryError>& errors,
                                           const Vector3d& direction) const {
         return fit_.error_at(errors, direction);
@@ -77,22 +78,22 @@ class ReynoldsFit {
 
     [[nodiscard]] bool turbulent() const { return turbulent_; }
 
-    /// Whether force and moment stand beside the trend.
+    /// Whether force and moment are relative to the trend.
     [[nodiscard]] bool force_has_trend() const { return force_has_trend_; }
     [[nodiscard]] bool moment_has_trend() const { return moment_has_trend_; }
 
   private:
     [[nodiscard]] LoadEntry logarithms_at(const Vector3d& direction) const;
-    /// Main's value or the trend's, of what stands beside it.
-    [[nodiscard]] LoadEntry beside(const Vector3d& direction) const;
+    /// Returns the value of main or of the trend to which the samples are relative.
+    [[nodiscard]] LoadEntry base_at(const Vector3d& direction) const;
     void set_values(const std::vector<DirectionSample>& samples);
-    /// The errors per spread that leaving out each sample tells of the values.
+    /// Returns the leave-one-out errors per spread.
     [[nodiscard]] ErrorMetrics left_out(const Symmetry& symmetry,
                                         const std::vector<DirectionSample>& samples) const;
 
     DirectionFit fit_;
-    std::vector<LoadEntry> values_;  ///< in logarithms; differences from what is beside
-    ErrorMetrics scale_;             ///< of the error per spread
+    std::vector<LoadEntry> values_;  ///< with logarithms; differences from base_at()
+    ErrorMetrics scale_;             ///< error per spread
     const ReynoldsFit* main_ = nullptr;
     std::optional<SurfaceTrend> trend_;
     bool force_has_trend_ = false;

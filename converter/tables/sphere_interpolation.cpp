@@ -8,11 +8,11 @@
 namespace samara {
 namespace {
 
-/// Free enough that polynomials are followed to 1e-4 of their size, small enough that rounding stays at 1e-9.
+/// Large enough to reproduce polynomials to 1e-4, small enough to keep rounding at 1e-9.
 constexpr double polynomial_variance = 1e2;
 
-/// r^3, and the Legendre polynomials of degree 0 to 2: those of one degree are a sum over all spherical
-/// harmonics of that degree (addition theorem), so that no direction is preferred.
+/// The kernel r^3 plus the Legendre polynomials of degree 0 to 2, each of which is a sum over all spherical
+/// harmonics of its degree (addition theorem), so that no direction is preferred.
 double kernel(const Vector3d& a, const Vector3d& b) {
     const double distance = (a - b).norm();
     const double cosine = a.dot(b);
@@ -74,7 +74,7 @@ Eigen::VectorXd SphereInterpolation::weights_without(const std::vector<std::size
 }
 
 double SphereInterpolation::spread(const Vector3d& direction, const Eigen::VectorXd& weights) const {
-    // Of the covariance 2 - r; where the weights sum to one the 2 drops out.
+    // The variance by the covariance 2 - r; where the weights sum to one the 2 cancels.
     const double level = 1.0 - weights.sum();
     const double square = 2.0 * weights.dot(towards(points_, direction, chord)) -
                           weights.dot(distances_ * weights) + 2.0 * level * level;

@@ -12,7 +12,7 @@ double mean_of(const double* first, std::size_t count) {
     return std::accumulate(first, first + count, 0.0) / static_cast<double>(count);
 }
 
-/// The standard error from `batches` equal batches; values that are left over are those at the start.
+/// Returns the standard error by `batches` equal batches; excess values at the start are dropped.
 double batch_error(const std::vector<double>& series, std::size_t batches) {
     const std::size_t length = series.size() / batches;
     const double* const start = series.data() + (series.size() - batches * length);
@@ -27,7 +27,7 @@ double batch_error(const std::vector<double>& series, std::size_t batches) {
     return std::sqrt(squares / (count * (count - 1.0)));
 }
 
-// Iterations. Chosen on ellipsoids that were solved on to twice their length, held against spheres and plates
+// In iterations; chosen by ellipsoids that were solved to twice the length, tested on spheres and plates
 // (docs/bake.md).
 constexpr double memory_of_iterations = 100.0;
 
@@ -56,8 +56,8 @@ double tail_error(const std::vector<double>& series) {
 
 namespace {
 
-/// The probability that |t| stays below a bound: M. Abramowitz and I. Stegun, Handbook of Mathematical
-/// Functions, 26.7.3 and 26.7.4.
+/// Returns the probability that |t| of Student's distribution stays below a bound: M. Abramowitz and I.
+/// Stegun, Handbook of Mathematical Functions, 26.7.3 and 26.7.4.
 double probability_within(double bound, int degrees) {
     const double angle = std::atan(bound / std::sqrt(static_cast<double>(degrees)));
     const double cosine = std::cos(angle);

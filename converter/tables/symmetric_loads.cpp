@@ -13,7 +13,8 @@ struct AllowedLoads {
     Matrix3d moment = Matrix3d::Zero();
 };
 
-/// The mean over the elements that keep the direction projects onto what they all leave unchanged.
+/// Averages the elements that keep the direction, which gives the projection onto the loads that all of them
+/// leave unchanged.
 AllowedLoads allowed_by_elements(const Symmetry& symmetry, const Vector3d& direction) {
     AllowedLoads allowed;
     double count = 0.0;
@@ -28,7 +29,7 @@ AllowedLoads allowed_by_elements(const Symmetry& symmetry, const Vector3d& direc
     return allowed;
 }
 
-/// A body of revolution has a mirror through its axis and any direction.
+/// Uses the mirror of a body of revolution through its axis and the direction.
 AllowedLoads allowed_about_axis(const Symmetry& symmetry, const Vector3d& direction) {
     const AxialArc arc = axial_arc(symmetry, 1);
     const double tolerance = direction_tolerance(symmetry);
@@ -57,7 +58,7 @@ AllowedLoads allowed_loads(const Symmetry& symmetry, const Vector3d& direction) 
     return allowed_by_elements(symmetry, direction);
 }
 
-/// What was taken away, as a sum of squares over a number of components.
+/// The removed part: a sum of squares over a number of components.
 struct Forbidden {
     double squares = 0.0;
     double components = 0.0;
@@ -76,7 +77,7 @@ void widen(Vector3d& error, double mean_square) {
     error = (error.array().square() + mean_square).sqrt();
 }
 
-/// Does the work of keep_symmetric_part for the force or the moment.
+/// Applies keep_symmetric_part() to the force or the moment.
 void keep_allowed(std::vector<DirectionSample>& samples, const std::vector<AllowedLoads>& allowed,
                   Matrix3d AllowedLoads::*projection, Vector3d LoadEntry::*load,
                   std::vector<LoadEntryError>& added) {
@@ -139,7 +140,7 @@ FreeComponents free_components(const Symmetry& symmetry, const Vector3d& directi
     if (symmetry.type == Symmetry::Type::spherical) return {direction.cwiseAbs2(), Vector3d::Zero()};
     const Vector3d axis = axial_arc(symmetry, 1).axis;
     const Vector3d normal = axis.cross(direction);
-    // Around the axis itself the planes of all directions meet.
+    // On the axis the planes of all directions intersect.
     if (normal.norm() < direction_tolerance(symmetry)) {
         return {Vector3d::Ones(), Vector3d::Ones() - axis.cwiseAbs2()};
     }

@@ -7,7 +7,7 @@
 namespace samara {
 namespace {
 
-/// Differences and stated errors of one quantity, summed as squares.
+/// Accumulates squared differences and stated errors of one quantity.
 class Sum {
   public:
     void add(double difference, double stated, double scale) {
@@ -71,7 +71,7 @@ TableCheck check_tables(const LoadTables& tables, const std::vector<SolvedCase>&
         check.cases.push_back(
             {solved.name, solved.sample.direction, solved.reynolds_number, value, difference, stated});
     }
-    if (check.cases.empty()) throw Error("there is no case of purpose table to hold the tables against");
+    if (check.cases.empty()) throw Error("there is no case of purpose table to compare the tables with");
     check.force = force.result();
     check.moment = moment.result();
     check.turbulent_kinetic_energy = k.result();

@@ -8,7 +8,7 @@
 
 namespace samara {
 
-/// A table against one case that it was not made from (body axes).
+/// The comparison of a table with one case that it was not made from (body axes).
 struct CheckedCase {
     std::string name;
     Vector3d direction;
@@ -18,13 +18,14 @@ struct CheckedCase {
     LoadEntryError stated;  ///< the table's standard error there
 };
 
-/// One quantity over all cases.
+/// The errors of one quantity over all cases.
 struct QuantityCheck {
     double error = 0.0;   ///< force, moment: rms difference over rms value; k, epsilon: rms of ln(table/case)
-    double stated = 0.0;  ///< the same of the stated standard errors
+    double stated = 0.0;  ///< stated standard errors, averaged like `error`
     double within_two = 0.0;  ///< share of differences (of components) within two standard errors
 };
 
+/// The comparison of a table with solved cases.
 struct TableCheck {
     std::vector<CheckedCase> cases;
     QuantityCheck force;
@@ -34,8 +35,8 @@ struct TableCheck {
     double within_two = 0.0;  ///< over all quantities and components
 };
 
-/// Holds tables against cases of purpose "table" (body axes) at directions and Reynolds numbers of their own.
-/// Throws Error where there is none.
+/// Compares tables with cases of purpose "table" (body axes) at other directions and Reynolds numbers. Throws
+/// Error where there is no such case.
 TableCheck check_tables(const LoadTables& tables, const std::vector<SolvedCase>& cases);
 
 }  // namespace samara

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "converter/falls/model_errors.hpp"
 #include "converter/tables/fitted_tables.hpp"
+#include "converter/tables/model_errors.hpp"
 #include "converter/tables/reynolds_fit.hpp"
 #include "converter/tables/symmetric_loads.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
@@ -15,7 +15,7 @@
 namespace samara {
 namespace {
 
-/// Variances by source, those of k and epsilon of their logarithms.
+/// Variances by source; those of k and epsilon are of their logarithms.
 using SourceVariances = std::array<LoadEntryError, error_source_count>;
 
 LoadEntryError& of(SourceVariances& variances, ErrorSource source) {
@@ -26,15 +26,15 @@ const LoadEntryError& of(const SourceVariances& variances, ErrorSource source) {
     return variances[static_cast<std::size_t>(source)];
 }
 
-/// The variance of each component and logarithm from standard errors that are the same for all components
-/// that are free.
+/// Returns the variance of each component and logarithm by standard errors that are equal for all free
+/// components.
 LoadEntryError variance_of(const ErrorMetrics& metrics, const FreeComponents& free) {
     return {metrics.force * metrics.force * free.force, metrics.moment * metrics.moment * free.moment,
             metrics.turbulent_kinetic_energy * metrics.turbulent_kinetic_energy,
             metrics.dissipation_rate * metrics.dissipation_rate};
 }
 
-/// Standard errors from variances, those of k and epsilon from their logarithms' to their own.
+/// Converts variances to standard errors, those of k and epsilon from the logarithms to the values.
 LoadEntryError absolute(const LoadEntry& entry, const LoadEntryError& variance) {
     LoadEntryError error = rooted(variance);
     error.turbulent_kinetic_energy =
@@ -43,8 +43,8 @@ LoadEntryError absolute(const LoadEntry& entry, const LoadEntryError& variance) 
     return error;
 }
 
-/// Calls visit(row, column) for each place of a square: the map has 2 subdivisions + 1 nodes a side, and one
-/// cell fewer.
+/// Calls visit(row, column) for each element of a square; the map has 2 subdivisions + 1 nodes on each side,
+/// and one cell fewer.
 template <typename Visit>
 void for_each(int side, const Visit& visit) {
     for (int row = 0; row < side; ++row) {
@@ -73,7 +73,7 @@ void fill_nodes(ReynoldsTable& table, int subdivisions) {
     table.scale = {std::sqrt(force / directions), std::sqrt(moment / directions)};
 }
 
-/// What the interpolation leaves uncertain at the centre of a cell, as variances.
+/// Returns the variance by the interpolation at the centre of a cell.
 LoadEntryError variance_in_cell(const ReynoldsTable& table, const Symmetry& symmetry, int subdivisions,
                                 int row, int column) {
     const double middle = 0.5;
@@ -88,7 +88,7 @@ LoadEntryError variance_in_cell(const ReynoldsTable& table, const Symmetry& symm
                 squared(lookup));
 }
 
-/// The mean variances of the cells around each node, row by row.
+/// Returns the mean variances of the cells around each node, row by row.
 std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, const Symmetry& symmetry,
                                                    int subdivisions) {
     std::vector<LoadEntryError> sums(table.nodes.size());
@@ -117,7 +117,7 @@ LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& ent
         free);
 }
 
-/// What the whole tables' errors are made of.
+/// The model errors of the whole tables, where the cases show them.
 struct ModelErrors {
     std::optional<RelativeErrors> mesh;
     std::optional<RelativeErrors> closure;
@@ -147,7 +147,7 @@ std::vector<SourceVariances> source_variances(const ReynoldsTable& table, const 
     return result;
 }
 
-/// Squares summed over the whole tables: of the values, and of their errors by source.
+/// Sums of squares over the whole tables: of the values, and of their errors by source.
 struct Totals {
     LoadEntry values;
     SourceVariances errors;
@@ -247,7 +247,7 @@ std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symm
 
 namespace {
 
-/// The error in the middle of an interval over that of an interval twice as long: second order.
+/// The error in the middle of an interval relative to that of an interval twice as long, for second order.
 constexpr double share_left = 0.25;
 
 }  // namespace

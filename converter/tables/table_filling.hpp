@@ -12,26 +12,26 @@ namespace samara {
 /// Fills the tables (Reynolds numbers, entries, errors, error sources) over all directions from the solved
 /// table cases, with `subdivisions` and `axes` of the tables as they stand. The main Reynolds number has
 /// most directions; the others may have any of its directions (ReynoldsFit). Where the mesh before (purpose
-/// `mesh`) has more directions than the table, the main one is its fit plus that of what the last mesh
-/// changes (docs/theory.md, "Two meshes"). Of a body of finite symmetry it may stand beside the loads of its
-/// surface, where these are given (SurfaceTrend).
+/// `mesh`) has more directions than the table, the main one is its fit plus that of the change by the last
+/// mesh (docs/theory.md, "Two meshes"). For a body of finite symmetry it may be relative to the surface
+/// loads, where these are given (SurfaceTrend).
 ///
-/// In `cases` the loads that the symmetry forbids are taken from every case, and the table cases' errors are
-/// widened by them (keep_symmetric_part).
+/// In `cases` the loads that the symmetry forbids are removed from every case, and the table cases' errors
+/// are widened by them (keep_symmetric_part).
 ///
-/// The error of an entry has five sources, in quadrature, for k and epsilon as errors of their logarithms,
-/// from which k's is k (exp(s) - 1):
-///  - tail: of the iterations;
-///  - symmetry: keep_symmetric_part;
+/// The error of an entry has five sources, in quadrature, for k and epsilon as errors s of their logarithms,
+/// from which that of k is k (exp(s) - 1):
+///  - tail: the iterations had not ended (tail_error);
+///  - symmetry: forbidden loads (keep_symmetric_part);
 ///  - mesh and closure: model_errors;
-///  - interpolation: since a table is used between its nodes, the mean square over the centres of the cells
-///    around the node, of the interpolation between samples (ReynoldsFit::interpolation_error) and of the
-///    difference that the bilinear lookup makes to it; and that between Reynolds numbers
-///    (reynolds_interpolation_variance).
-/// Sources of which the cases say nothing are absent from error_sources: mesh and closure without such
+///  - interpolation: the mean square over the centres of the cells around the node, since a table is used
+///  between its nodes, of the interpolation between samples (ReynoldsFit::interpolation_error) and of its
+///  difference from the bilinear lookup; and the interpolation between Reynolds numbers
+///  (reynolds_interpolation_variance).
+/// Sources that the cases do not show are absent from error_sources: mesh and closure without such
 /// cases, symmetry where it forbids nothing.
 ///
-/// Returns the standard errors of the interpolation alone, entry by entry: what more directions and Reynolds
+/// Returns the standard errors by the interpolation alone, entry by entry, which more directions and Reynolds
 /// numbers would lower.
 ///
 /// Throws Error where there is no table case at the main Reynolds number, or where a Reynolds number mixes
@@ -40,12 +40,11 @@ std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symm
                                         std::vector<SolvedCase>& cases, double main_reynolds_number,
                                         const std::optional<SurfaceLoads>& surface = {});
 
-/// The mean square error of looking a table up between its Reynolds numbers, linear in log Re: each inner
-/// Reynolds number is left out and predicted from its two neighbours. That error belongs to intervals twice
-/// as long, and to their middle, so that for a smooth change a quarter of it is left in the middle of the
-/// table's own. One figure for each kind of quantity (the components of a vector alike), k and epsilon by
-/// their logarithms; nothing (zero) where there are fewer than three Reynolds numbers, or where they are
-/// laminar.
+/// Estimates the mean square error of interpolating a table between its Reynolds numbers, linearly in log Re:
+/// each inner Reynolds number is left out and predicted from its two neighbours. That error is of intervals
+/// twice as long, so that for a smooth change a quarter of it remains in the middle of the table's intervals.
+/// The components of a vector have equal errors, those of k and epsilon are of their logarithms; zero where
+/// there are fewer than three Reynolds numbers, or where the flow is laminar.
 ///
 /// `nodes`: the entries of each of the ascending `reynolds_numbers` in the same directions.
 LoadEntryError reynolds_interpolation_variance(const std::vector<double>& reynolds_numbers,

@@ -1,5 +1,3 @@
-#include "converter/wind/foam_wind.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "converter/openfoam/foam_history.hpp"
 #include "converter/openfoam/poly_mesh.hpp"
-#include "converter/openfoam/time_folders.hpp"
-#include "converter/wind/node_layout.hpp"
+#include "converter/wind/wind_readers.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -18,18 +16,18 @@ namespace {
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
-/// z up from y up: (x, y, z) -> (x, -z, y).
+/// Converts y up to z up: (x, y, z) -> (x, -z, y).
 Vector3d z_up(const Vector3d& v, bool y_up) {
     return y_up ? Vector3d(v.x(), -v.z(), v.y()) : v;
 }
 
-/// A face as a cell sees it.
+/// A face of a cell.
 struct CellFace {
-    FaceGeometry geometry;  ///< its area out of the cell
+    FaceGeometry geometry;  ///< area vector out of the cell
     std::size_t neighbour;  ///< the cell behind it, or nowhere
 };
 
-/// The mesh cell by cell.
+/// The mesh as a list of cells with their faces.
 class Cells {
   public:
     explicit Cells(const PolyMesh& mesh) : faces_(mesh.cell_count()), boxes_(mesh.cell_count()) {
@@ -52,7 +50,7 @@ class Cells {
     [[nodiscard]] const std::vector<CellFace>& faces(std::size_t cell) const { return faces_[cell]; }
     [[nodiscard]] const Vector3d& center(std::size_t cell) const { return centers_[cell]; }
     [[nodiscard]] const Eigen::AlignedBox3d& box(std::size_t cell) const { return boxes_[cell]; }
-    /// How far (m) a place is beyond the cell's farthest face; negative within.
+    /// Returns the distance (m) of a place beyond the cell's farthest face; negative inside.
     [[nodiscard]] double beyond(std::size_t cell, const Vector3d& place) const {
         double farthest = -std::numeric_limits<double>::infinity();
         for (const CellFace& face : faces_[cell]) {
@@ -67,7 +65,7 @@ class Cells {
         faces_[cell].push_back(face);
         for (const Vector3d& corner : corners) boxes_[cell].extend(corner);
     }
-    /// Of its volume, in pyramids about the mean of its faces.
+    /// Returns the centroid of a cell, by pyramids about the mean of its faces.
     static Vector3d center_of(const std::vector<CellFace>& faces) {
         Vector3d middle = Vector3d::Zero();
         for (const CellFace& face : faces) middle += face.geometry.center / static_cast<double>(faces.size());
@@ -91,7 +89,7 @@ Vector3d place_of(const WindGrid& grid, std::size_t x, std::size_t y, std::size_
     return grid.origin + steps.cwiseProduct(grid.spacing);
 }
 
-/// The cell that each node lies in, or nowhere: of several, that in which it lies deepest.
+/// Returns the cell that contains each node, or nowhere; of several, the one in which it lies deepest.
 std::vector<std::size_t> cells_of_nodes(const Cells& cells, const WindGrid& grid) {
     const std::size_t nodes = grid.nodes[0] * grid.nodes[1] * grid.nodes[2];
     std::vector<std::size_t> found(nodes, nowhere);
@@ -124,7 +122,7 @@ std::vector<std::size_t> cells_of_nodes(const Cells& cells, const WindGrid& grid
     return found;
 }
 
-/// The velocity at a place of a cell.
+/// Returns the velocity at a place in a cell.
 Vector3d velocity_at(const Cells& cells, const FoamField<Vector3d>& field, std::size_t cell,
                      const Vector3d& place) {
     const Vector3d own = field[cell];
@@ -142,7 +140,7 @@ Vector3d velocity_at(const Cells& cells, const FoamField<Vector3d>& field, std::
         least = least.cwiseMin(field[face.neighbour]);
         most = most.cwiseMax(field[face.neighbour]);
     }
-    // Where the neighbours lie in a plane or a line, the gradient out of it is zero.
+    // Where the neighbours lie in a plane or on a line, the gradient perpendicular to it is zero.
     const Matrix3d gradient =
         squares.completeOrthogonalDecomposition().solve(products.transpose()).transpose();
     const Vector3d there = own + gradient * (place - cells.center(cell));
@@ -223,6 +221,24 @@ WindGrid read_foam_wind(const std::filesystem::path& case_folder, const FoamWind
     grid.source = fmt::format("the OpenFOAM case {}",
                               std::filesystem::absolute(case_folder).lexically_normal().filename().string());
     return grid;
+}
+
+void lay_nodes(WindGrid& grid, const Eigen::AlignedBox3d& box) {
+    constexpr double most_nodes = 4e8;  // 4.8 GB
+    grid.origin = box.min();
+    auto nodes = static_cast<double>(grid.frames);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<Eigen::Index>(axis);
+        const double intervals = std::ceil(box.sizes()[i] / grid.spacing[i] - 1e-6);
+        nodes *= intervals + 1.0;
+        if (nodes > most_nodes) {
+            throw Error(fmt::format(
+                "the wind would take more than {:g} nodes over all times; give a larger --spacing "
+                "than {:g} m",
+                most_nodes, grid.spacing.minCoeff()));
+        }
+        grid.nodes[axis] = static_cast<std::size_t>(intervals) + 1;
+    }
 }
 
 }  // namespace samara

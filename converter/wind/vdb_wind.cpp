@@ -1,11 +1,9 @@
-#include "converter/wind/vdb_wind.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
-#include "converter/wind/node_layout.hpp"
+#include "converter/wind/wind_readers.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -15,7 +13,7 @@ Error error(const std::filesystem::path& file, const std::string& what) {
     return Error(fmt::format("{}: {}", file.string(), what));
 }
 
-/// z up from y up, and back: (x, y, z) -> (x, -z, y).
+/// Converts y up to z up, (x, y, z) -> (x, -z, y), and back.
 openvdb::Vec3d z_up(const openvdb::Vec3d& v, bool y_up) {
     return y_up ? openvdb::Vec3d(v.x(), -v.z(), v.y()) : v;
 }
@@ -23,7 +21,7 @@ openvdb::Vec3d as_in_file(const Vector3d& v, bool y_up) {
     return y_up ? openvdb::Vec3d(v.x(), v.z(), -v.y()) : openvdb::Vec3d(v.x(), v.y(), v.z());
 }
 
-/// The velocity of one file: a grid of vectors, or one of numbers for each component.
+/// The velocity of one file: a grid of vectors, or a grid of numbers for each component.
 class VdbVelocity {
   public:
     VdbVelocity(const std::filesystem::path& file, const VdbOptions& options) : options_(options) {
@@ -37,10 +35,10 @@ class VdbVelocity {
         for (const openvdb::GridBase::Ptr& part : parts_) place(file, *part);
     }
 
-    /// m between voxels, the file's axes.
+    /// Returns the voxel size (m) in the file's axes.
     [[nodiscard]] openvdb::Vec3d voxel_size() const { return parts_.front()->voxelSize(); }
 
-    /// Widens a box (m, z up) to hold the active voxels.
+    /// Extends a box (m, z up) to contain the active voxels.
     void widen(Eigen::AlignedBox3d& box) const {
         for (const openvdb::GridBase::Ptr& part : parts_) {
             const openvdb::CoordBBox voxels = part->evalActiveVoxelBoundingBox();
@@ -55,7 +53,7 @@ class VdbVelocity {
         }
     }
 
-    /// The velocity (m/s, z up) at a place (m, z up).
+    /// Returns the velocity (m/s, z up) at a place (m, z up).
     [[nodiscard]] Vector3d operator()(const Vector3d& place) const {
         const openvdb::Vec3d at = as_in_file(place, options_.y_up);
         openvdb::Vec3d found;
@@ -72,8 +70,8 @@ class VdbVelocity {
                 found[i] = openvdb::tools::BoxSampler::sample(grid.tree(), grid.worldToIndex(at));
             }
         }
-        const openvdb::Vec3d turned = z_up(found, options_.y_up);
-        return {turned.x(), turned.y(), turned.z()};
+        const openvdb::Vec3d up = z_up(found, options_.y_up);
+        return {up.x(), up.y(), up.z()};
     }
 
   private:
@@ -118,11 +116,13 @@ class VdbVelocity {
                 : fmt::format("holds {}, and no velocity '{}' of single precision", held, options_.grid));
     }
 
-    /// Puts a grid that is in index space in its place, or refuses it.
+    /// Sets the voxel size of a grid in index space. Throws Error where that is not given, or the grid is no
+    /// box.
     void place(const std::filesystem::path& file, openvdb::GridBase& grid) const {
         if (!grid.transform().isLinear()) {
-            throw error(file, fmt::format("the grid '{}' narrows like a camera's view; resample it to a box",
-                                          grid.getName()));
+            throw error(file,
+                        fmt::format("the grid '{}' is a frustum, as of a camera's view; resample it to a box",
+                                    grid.getName()));
         }
         const bool in_index_space = grid.transform().isIdentity();
         if (in_index_space && !options_.voxel_size) {
@@ -170,7 +170,7 @@ WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const Vd
     grid.interval = 1.0 / options.frame_rate;
     Eigen::AlignedBox3d box;
     std::optional<openvdb::Vec3d> voxel;
-    // Twice through the files, so that memory does not grow with their number.
+    // The files are read twice, so that memory does not grow with their number.
     const auto total = 2.0 * static_cast<double>(files.size());
     double done = 0.0;
     const auto tell = [&] {
@@ -183,8 +183,8 @@ WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const Vd
         tell();
     }
     if (box.isEmpty()) throw error(files.front(), "has no active voxel, nor has another of the files");
-    const openvdb::Vec3d turned = z_up(*voxel, options.y_up);
-    grid.spacing = Vector3d(turned.x(), turned.y(), turned.z()).cwiseAbs();
+    const openvdb::Vec3d size = z_up(*voxel, options.y_up);
+    grid.spacing = Vector3d(size.x(), size.y(), size.z()).cwiseAbs();
     if (options.spacing) grid.spacing.setConstant(*options.spacing);
     lay_nodes(grid, box);
     grid.velocities.reserve(grid.size());

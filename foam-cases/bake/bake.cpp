@@ -5,23 +5,27 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "converter/cases/samples_csv.hpp"
-#include "foam-cases/bake/body_preparation.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/commands/shared/print.hpp"
+#include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/core/files/temporary_folder.hpp"
 
@@ -31,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 using Planned = std::function<void(const BakePreparation&)>;
 
-// Seconds since the last call: of the clock on the wall, and of CPUs.
+// Measures seconds since the last call, by wall clock and of CPU time.
 class Stopwatch {
   public:
     double lap() {
@@ -51,7 +55,7 @@ class Stopwatch {
     double last_cpu_ = cpu_seconds_so_far();
 };
 
-/// Writes the output; the body weighs from now on what it was baked for.
+/// Writes the output; the body gets the mass for which it was baked.
 void write_result(const BakeRequest& request, Body& body) {
     body.mass = mass_asked_or_own(request.mass, body);
     write_body_file(request.output, body);
@@ -61,7 +65,7 @@ bool plans_falls(const BakeRequest& request) {
     return request.tables && request.probes == 0 && request.quality.falls > 0;
 }
 
-/// That of the tables and falls, and that which every other fall has besides.
+/// Returns the mass for the tables and falls, and where given the second one for every other fall.
 std::vector<MassSpecification> masses_of(const BakeRequest& request) {
     std::vector<MassSpecification> masses = {request.mass};
     if (request.other_density > 0.0) masses.emplace_back().density = request.other_density;
@@ -83,7 +87,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
                                 request.fluid.kinematic_viscosity());
     if (request.goal) {
         preparation.simulation =
-            fly_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
+            simulate_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
         preparation.scene_plan =
             first_plan(*request.goal, body, request.quality, request.inflow, preparation.simulation);
         preparation.plan = preparation.scene_plan->cases;
@@ -108,7 +112,7 @@ Body named_body(const BakeRequest& request, const fs::path& folder) {
     return body;
 }
 
-/// A folder of cases that one bake solves, perhaps in rounds.
+/// Solves the folder of cases of one bake, perhaps in rounds.
 class CaseSolving {
   public:
     CaseSolving(const BakeRequest& request, const Body& body, FarmOptions farm, BakeResult& result)
@@ -122,7 +126,7 @@ class CaseSolving {
         end_earlier_jobs(folder_);
     }
 
-    /// Solves what is not solved yet of a plan.
+    /// Solves the cases of a plan that are not solved yet.
     void solve(const BakePlan& plan, Unplanned unplanned) {
         write_case_folder(folder_, body_, plan, foam_cases_, unplanned);
         const std::size_t solved_before = count_solved(folder_, plan);
@@ -134,7 +138,7 @@ class CaseSolving {
         result_.left_out = left_out;
         records_ = cpu_account(folder_, plan);
         result_.cpu_seconds = cpu_seconds_of(records_);
-        // A cluster's cases are no processes of this one.
+        // Cases on a cluster do not run as child processes.
         const double of_cases = farm_.cluster.empty() ? result_.cpu_seconds - spent_before : 0.0;
         farming_.seconds += std::max(0.0, watch_.cpu_lap() - of_cases);
         result_.case_seconds += watch_.lap();
@@ -173,7 +177,7 @@ class CaseSolving {
 
     void name_work(std::string work) { farm_.work = std::move(work); }
 
-    /// Puts what was done here into the result's account.
+    /// Adds the work that was done here to the result's account.
     void close_account() const {
         result_.account.insert(result_.account.end(), records_.begin(), records_.end());
         result_.account.insert(result_.account.end(), {farming_, reduction_});
@@ -268,6 +272,106 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const 
         write_result(request, body);
     }
     return result;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path require_program(const std::string& name) {
+    if (auto program = find_program(name)) return *program;
+    throw Error(fmt::format(
+        "the program {} is not installed beside this one nor on PATH; install samara again", name));
+}
+
+// Returns the error that a program of samara printed in its last line, without the program's name.
+std::string error_in(const fs::path& log, const std::string& program) {
+    std::istringstream lines(read_bytes(log));
+    std::string last;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.empty()) last = line;
+    }
+    const std::string prefix = program + ": ";
+    if (last.empty()) return fmt::format("{} failed without a message", program);
+    return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
+}
+
+void run_stage(const std::vector<std::string>& words, const fs::path& log, const std::string& program) {
+    if (run_subprocess(words, log) != 0) throw Error(error_in(log, program));
+}
+
+}  // namespace
+
+Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
+    if (is_body_file_name(shape)) {
+        if (scale != 1.0) {
+            throw Error(fmt::format("{}: a body file is in metres and takes no scale; scale the shape file",
+                                    shape.string()));
+        }
+        return read_body_file(shape);
+    }
+    if (!fs::is_regular_file(shape)) throw Error(fmt::format("{}: there is no such file", shape.string()));
+    const fs::path meshed = folder / "shape.body.h5";
+    const std::string name = shape.string().starts_with('-') ? "./" + shape.string() : shape.string();
+    std::vector<std::string> words = {require_program("samara-mesh").string(), name, "-o", meshed.string()};
+    if (scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", scale)});
+    run_stage(words, folder / "log.mesh", "samara mesh");
+    Body body = naming(shape.string(), meshed.string(), [&] { return read_body_file(meshed); });
+    body.name = body_name_of(shape);
+    return body;
+}
+
+void add_kirchhoff_tensor(Body& body, const fs::path& shape, const fs::path& earlier,
+                          const fs::path& folder) {
+    if (body.kirchhoff && body.surface_loads) return;
+    if (fs::is_regular_file(fs::symlink_status(earlier))) {
+        const Body known = read_body_file(earlier);
+        if (known.kirchhoff && known.surface_loads &&
+            surface_hash(known.surface) == surface_hash(body.surface)) {
+            body.kirchhoff = known.kirchhoff;
+            body.surface_loads = known.surface_loads;
+            return;
+        }
+    }
+    const fs::path file = folder / "kirchhoff.body.h5";
+    write_body_file(file, body);
+    naming(shape.string(), file.string(), [&] {
+        run_stage({require_program("samara").string(), "kirchhoff", file.string(), "-o", file.string()},
+                  folder / "log.kirchhoff", "samara kirchhoff");
+    });
+    const Body solved = read_body_file(file);
+    body.kirchhoff = solved.kirchhoff;
+    body.surface_loads = solved.surface_loads;
+    if (!body.kirchhoff) throw Error(fmt::format("{}: has no Kirchhoff tensor", body.name));
+}
+
+std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::filesystem::path& folder,
+                                            const SceneBakeOptions& options) {
+    std::vector<BakeRequest> requests;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const SceneBody& body = scene.bodies[i];
+        BakeRequest request;
+        request.name = body.name;
+        request.shape = body.shape;
+        request.scale = body.scale;
+        request.output = folder / (body.name + ".body.h5");
+        request.fluid = scene.fluid;
+        request.mass = body.mass;
+        request.gravity = scene.gravity.norm();
+        request.quality = options.quality;
+        request.inflow = options.inflow;
+        request.tables = body.loads == Loads::table || body.turbulence == Turbulence::table;
+        if (request.tables) {
+            request.goal = SceneGoal{.scene = scene,
+                                     .body = i,
+                                     .tolerance = options.tolerance,
+                                     .budget = options.budget,
+                                     .most_rounds = options.most_rounds,
+                                     .whole_grid = options.whole_grid};
+        }
+        requests.push_back(std::move(request));
+    }
+    return requests;
 }
 
 }  // namespace samara

@@ -21,14 +21,14 @@ namespace samara {
 namespace {
 
 // CPU seconds, measured with simpleFoam v1912 by k-epsilon on two cores that other work shares, on which
-// 6,000 to 19,000 cells take 2.3e-6 to 3.2e-6; a core of its own takes half to two thirds of that.
+// 6,000 to 19,000 cells take 2.3e-6 to 3.2e-6; an idle core takes half to two thirds of that.
 // snappyHexMesh per cell of the result.
 constexpr double seconds_per_cell_and_iteration = 2.7e-6;
 constexpr double seconds_per_case = 0.6;  // starting programs, scripts and checks
-constexpr double seconds_of_farm = 2.5;   // Snakemake, to begin with
+constexpr double seconds_of_farm = 2.5;   // start of Snakemake
 constexpr double seconds_per_cell_of_mesh = 1.7e-4;
 
-// What plan.json has in place of a bake's quality where it is of one fall.
+// The value of `quality` in plan.json for a plan of falls only.
 constexpr const char* quality_of_fall = "fall";
 
 double largest_distance_from_centroid(const Body& body) {
@@ -65,7 +65,7 @@ double mean_width(const Surface& surface) {
     return sum / weights;
 }
 
-// The second smallest extent in case axes (m): that of a rod's thickness, but of a sheet's width.
+// Returns the second smallest extent in case axes (m): the thickness of a rod, but the width of a sheet.
 double second_extent(const Body& body) {
     Eigen::Array3d lowest = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
     Eigen::Array3d highest = -lowest;
@@ -79,8 +79,8 @@ double second_extent(const Body& body) {
     return extents[1];
 }
 
-// A rod's surface is to have at least three cells across; snappyHexMesh would not see a thinner one. A sheet,
-// thin in one direction alone, needs no cells inside it.
+// Returns the surface level with at least three cells across a rod, since snappyHexMesh would not resolve a
+// thinner one. A sheet, thin in one direction only, needs no cells inside it.
 int surface_level_for(const FlowMesh& mesh, double second_extent_over_length) {
     constexpr int cells_across = 3;
     constexpr int most_further_levels = 3;
@@ -92,7 +92,7 @@ int surface_level_for(const FlowMesh& mesh, double second_extent_over_length) {
     return level;
 }
 
-// Twice the box, of as many background cells; those that there were fill one more shell.
+// Doubles the box with the same number of background cells; the previous cell size fills one more shell.
 void widen(FlowMesh& mesh) {
     const double shell = mesh.refinement_shells.back().first + 4.0 * mesh.background_cell;
     for (auto& [distance, level] : mesh.refinement_shells) ++level;
@@ -102,14 +102,14 @@ void widen(FlowMesh& mesh) {
     mesh.box_half_width *= 2;
 }
 
-// The far boundary is to be at least ten L away, and four times the body's own reach.
+// Fits a mesh to the body: the far boundary is at least 10 L away, and four times the body's largest radius.
 FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
     const double reach = largest_distance_from_centroid(body) / length;
     while (mesh.box_half_width < 4.0 * reach) widen(mesh);
     const int planned_level = mesh.surface_level;
     mesh.surface_level = surface_level_for(mesh, second_extent(body) / length);
-    // snappyHexMesh refines at a surface that its cells can see, and cells as large as the body do not see
-    // it: so each level is reached through a shell, for the further ones of two cells' thickness.
+    // snappyHexMesh refines where its cells resolve the surface, which cells as large as the body do not: so
+    // each level is reached through a shell, the further ones two cells thick.
     for (int level = planned_level + 1; level <= mesh.surface_level; ++level) {
         const double thickness = 2.0 * mesh.background_cell / std::ldexp(1.0, level);
         mesh.refinement_shells.insert(mesh.refinement_shells.begin(), {thickness, level});
@@ -117,7 +117,8 @@ FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
     return mesh;
 }
 
-// The most subdivisions whose directions the quality affords, and a stored map whose nodes hold theirs.
+// Chooses the most subdivisions whose directions the quality allows, and a stored map that includes their
+// nodes.
 void choose_subdivisions(const Symmetry& symmetry, BakePlan& plan) {
     const BakeQuality& quality = plan.quality;
     plan.solved_subdivisions = quality.least_subdivisions;
@@ -132,13 +133,13 @@ void choose_subdivisions(const Symmetry& symmetry, BakePlan& plan) {
     plan.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
 }
 
-std::string case_name(const char* kind, std::size_t index, const FlowMesh& mesh) {
-    return fmt::format("{}_{:02}_{}", kind, index, mesh.name.substr(mesh.name.find('_') + 1));
+std::string case_name(const char* group, std::size_t index, const FlowMesh& mesh) {
+    return fmt::format("{}_{:02}_{}", group, index, mesh.name.substr(mesh.name.find('_') + 1));
 }
 
-// Adds a case beside another, which differs from it in what `change` does to it.
+// Adds a copy of a case that starts from its solution and is modified by `change`.
 template <typename Change>
-void add_beside(const BakeCase& main, const std::string& more, Change change, BakePlan& plan) {
+void add_variant(const BakeCase& main, const std::string& more, Change change, BakePlan& plan) {
     BakeCase entry = main;
     entry.name = main.name + more;
     entry.start_from = main.name;
@@ -146,13 +147,13 @@ void add_beside(const BakeCase& main, const std::string& more, Change change, Ba
     plan.cases.push_back(entry);
 }
 
-// The mesh of the turbulence that goes with one of the loads.
+// Returns the mesh of the turbulence that belongs to one of the loads.
 const std::string& turbulence_mesh_of(const std::string& mesh, const BakeQuality& quality) {
     const auto found = std::ranges::find(quality.meshes, mesh, &FlowMesh::name);
     return quality.turbulence_meshes.at(static_cast<std::size_t>(found - quality.meshes.begin())).name;
 }
 
-// Adds the case of the turbulence of the plan's last case, where it has one of its own; returns its name.
+// Adds the separate turbulence case of the plan's last case, where the quality has such; returns its name.
 std::string add_turbulence(const std::string& start_from, Closure closure, BakePlan& plan) {
     BakeCase& loads = plan.cases.back();
     if (plan.quality.turbulence_meshes.empty() || loads.reynolds_number < laminar_reynolds_number) return {};
@@ -168,13 +169,13 @@ std::string add_turbulence(const std::string& start_from, Closure closure, BakeP
     return entry.name;
 }
 
-// The mesh that further Reynolds numbers and closures are solved on: that before the last.
+// Returns the mesh for further Reynolds numbers and closures: the one before the last.
 const std::string& mesh_of_few(const BakePlan& plan) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
     return meshes[meshes.size() < 2 ? 0 : meshes.size() - 2].name;
 }
 
-// The main case in a direction on that mesh.
+// Returns the main case in a direction on that mesh.
 BakeCase case_of_few(const Vector3d& direction, const BakePlan& plan) {
     const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
         return entry.mesh == mesh_of_few(plan) && entry.direction == direction &&
@@ -184,7 +185,7 @@ BakeCase case_of_few(const Vector3d& direction, const BakePlan& plan) {
     return *found;
 }
 
-// The main cases in the directions of the coarsest map on the mesh before the last.
+// Returns the main cases in the directions of the coarsest map on the mesh before the last.
 std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
     const std::string& mesh = mesh_of_few(plan);
     std::vector<BakeCase> few;
@@ -197,9 +198,8 @@ std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
     return few;
 }
 
-// Of the directions, those that are solved on the last mesh too: the ends of the map's axes, where loads and
-// turbulence have their extremes, then those between which the change that the mesh makes is interpolated
-// best.
+// Chooses the directions that are solved on the last mesh too: the ends of the map's axes, where loads and
+// turbulence have their extremes, then those between which the change by the mesh is interpolated best.
 std::vector<std::size_t> chosen_for_last_mesh(const Symmetry& symmetry,
                                               const std::vector<Vector3d>& directions,
                                               const BakeQuality& quality) {
@@ -260,7 +260,7 @@ std::vector<FlowMesh> BakePlan::all_meshes() const {
     return meshes;
 }
 
-void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, double reynolds_number,
+void add_ladder(const char* group, std::size_t index, const Vector3d& direction, double reynolds_number,
                 BakePlan& plan, Ladder ladder) {
     const std::vector<FlowMesh>& meshes = plan.quality.meshes;
     std::string before;
@@ -268,7 +268,7 @@ void add_ladder(const char* kind, std::size_t index, const Vector3d& direction, 
     const std::size_t last = meshes.size() - (ladder == Ladder::to_mesh_before ? 1 : 0);
     for (std::size_t i = 0; i < last; ++i) {
         BakeCase entry;
-        entry.name = case_name(kind, index, meshes[i]);
+        entry.name = case_name(group, index, meshes[i]);
         entry.direction = direction;
         entry.reynolds_number = reynolds_number;
         entry.mesh = meshes[i].name;
@@ -319,7 +319,7 @@ void add_further_reynolds_number(const Vector3d& direction, double reynolds_numb
         entry.turbulence_from = "";
     };
     const BakeCase main = case_of_few(direction, plan);
-    add_beside(main, fmt::format("_re_{:.6g}", reynolds_number), change, plan);
+    add_variant(main, fmt::format("_re_{:.6g}", reynolds_number), change, plan);
     add_turbulence(main.turbulence_from, Closure::k_epsilon, plan);
 }
 
@@ -331,7 +331,7 @@ void add_other_closures(const Vector3d& direction, BakePlan& plan) {
             entry.purpose = CasePurpose::closure;
         };
         const BakeCase main = case_of_few(direction, plan);
-        add_beside(main, fmt::format("_{}", name_of(closures.loads)), change, plan);
+        add_variant(main, fmt::format("_{}", name_of(closures.loads)), change, plan);
         add_turbulence(main.turbulence_from, closures.turbulence, plan);
     }
 }
@@ -372,7 +372,7 @@ Closure closure_at(double reynolds_number, Closure turbulent) {
 }
 
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
-    // By k-epsilon means over the cases of docs/bake.md whose tails were held against longer runs.
+    // For k-epsilon, means over the cases of docs/bake.md whose tails were compared with longer runs.
     if (entry.closure == Closure::k_epsilon)
         return (entry.start_from.empty() ? 1.3 : 1.2) * plan.quality.least_iterations;
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
@@ -387,7 +387,7 @@ double estimated_cells(const Body& body, const FlowMesh& mesh) {
     const double length = reference_length(body.moments.surface_area);
     const double width = mean_width(body.surface) / length;
     const double pi = std::numbers::pi;
-    // Steiner's formula for a convex body of surface pi L^2 and mean width w, less the body itself.
+    // Steiner's formula for a convex body of surface pi L^2 and mean width w, without the body itself.
     const auto volume_within = [&](double distance) {
         return pi * distance + 2.0 * pi * width * distance * distance +
                4.0 / 3.0 * pi * distance * distance * distance;

@@ -74,11 +74,11 @@ BakeQuality high_quality() {
     return quality;
 }
 
-// The first layer (L) below y+ = 2 on a sphere up to Re 1e5 (docs/studies/closures).
+// The first layer (in L) that stays below y+ = 2 on a sphere up to Re 1e5 (docs/studies/closures).
 constexpr double thinnest_layer = 1.0 / 1800.0;
 
-// The mesh with layers of which the first is about so thick. The last has half the thickness of the cells
-// beyond it, each 1.4 times that of the one below.
+// Returns the mesh with layers of which the first is about `first_layer` thick. Each is 1.4 times as thick as
+// the one below; the last has half the thickness of the cells beyond it.
 FlowMesh with_thin_layers(FlowMesh mesh, double first_layer) {
     const double last_layer = 0.5 * mesh.background_cell / std::ldexp(1.0, mesh.surface_level);
     const double steps = std::log(last_layer / first_layer) / std::log(1.4);
@@ -87,7 +87,7 @@ FlowMesh with_thin_layers(FlowMesh mesh, double first_layer) {
     return mesh;
 }
 
-// What the loads ask for beyond the medium mesh is a fine wake, not a finer surface (docs/studies/closures).
+// Beyond the medium mesh, loads need a fine wake, not a finer surface (docs/studies/closures).
 FlowMesh mesh_of_loads(const FlowMesh& mesh) {
     if (mesh.name == fine_mesh().name) {
         return {"mesh_wake", 10, 1.0, 4, 0, {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};
@@ -137,7 +137,7 @@ BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
 }
 
 std::vector<FlowMesh> meshes_of_falls(double reynolds_number) {
-    // y+ of a given thickness grows about as Re^0.9; L/470 is below 2 at 2e4.
+    // y+ of a given thickness grows about as Re^0.9; L/470 gives less than 2 at Re 2e4.
     const double first_layer = std::min(1.0, std::pow(2e4 / reynolds_number, 0.9)) / 470.0;
     std::vector<FlowMesh> meshes;
     for (int cells = 8; cells <= 64; ++cells) {

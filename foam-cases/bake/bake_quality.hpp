@@ -4,86 +4,88 @@
 #include <utility>
 #include <vector>
 
-#include "converter/cases/closure.hpp"
+#include "converter/cases/case_plan.hpp"
 
 namespace samara {
 
-/// How the mesh around a body is made; lengths over L.
+/// The parameters of the mesh around a body; lengths in units of L.
 struct FlowMesh {
     std::string name = "mesh";  ///< of its folder
     int box_half_width = 10;
-    double background_cell = 1.0;                           ///< edge
-    int surface_level = 4;                                  ///< each level halves the background cells
-    int layers = 3;                                         ///< of cells along the surface
+    double background_cell = 1.0;  ///< edge length
+    int surface_level = 4;         ///< each level halves the edges of the background cells
+    int layers = 3;                ///< number of cell layers along the surface
     std::vector<std::pair<double, int>> refinement_shells;  ///< (distance from the body, level), outwards
-    /// Whether the layers are so thin that they resolve the boundary layer, or a wall function stands for it.
+    /// Whether the layers are thin enough to resolve the boundary layer; else a wall function models it.
     bool resolves_boundary_layer = false;
 
-    /// Cells along each edge of the box.
+    /// Returns the number of background cells along each edge of the box.
     [[nodiscard]] int background_cells() const;
 };
 
-/// The models of a case's loads, and of its k and epsilon.
+/// The closures of a direction's loads, and of its k and epsilon.
 struct Closures {
     Closure loads;
     Closure turbulence;
 };
 
-/// What --quality stands for. All directions are solved on every mesh but the last, a share of them on that
-/// too, coarsest first, each from the solution of the same direction on the mesh before: the start costs
-/// little, settles what is slow, and depends on no other direction. The last mesh's solution is the table's,
-/// the one's before it tells the mesh's error; where there is none, the table has that before it and what the
-/// last changes between the others (fill_tables).
-/// Loads and turbulence are of one case, or of two with models and meshes of their own (with_loads_by).
+/// The settings of --quality. All directions are solved on every mesh but the last and a share of them on the
+/// last too, coarsest first, each from the solution of the same direction on the mesh before: this start is
+/// cheap, settles slow changes, and depends on no other direction. The solution on the last mesh goes into
+/// the table, and its difference from the mesh before gives the mesh error; other directions have the
+/// solution on the mesh before plus the interpolated change by the last mesh (fill_tables). Loads and
+/// turbulence are of one case, or of two with separate closures and meshes (with_loads_by).
 struct BakeQuality {
     std::string name;
-    std::vector<FlowMesh> meshes;  ///< of the loads, for a compact body; a long one gets a wider box
-    /// Of k and epsilon, as many; none where they are of the loads' cases.
+    std::vector<FlowMesh> meshes;  ///< for the loads of a compact body; a long one gets a wider box
+    /// As many meshes for k and epsilon; none where these are of the loads' cases.
     std::vector<FlowMesh> turbulence_meshes;
     std::vector<FlowMesh>
-        fall_meshes;  ///< one, where falls have one of their own (add_falls): that of validate
-    Closure loads_closure = Closure::k_epsilon;  ///< where the flow is not laminar
-    Closure fall_closure = Closure::k_epsilon;   ///< of the falls, likewise
-    int least_subdivisions = 2;  ///< of the map of directions that are solved, whatever the cost
+        fall_meshes;  ///< the separate mesh of the falls, where they have one (add_falls), as of validate
+    Closure loads_closure = Closure::k_epsilon;  ///< for loads, where the flow is not laminar
+    Closure fall_closure = Closure::k_epsilon;   ///< for falls, where the flow is not laminar
+    int least_subdivisions = 2;                  ///< of the map of solved directions, at any cost
     int most_subdivisions = 8;
-    int most_directions = 16;  ///< multiples of the least subdivisions are taken up to so many directions
-    double share_on_last_mesh = 0.4;  ///< of the directions, where there is a mesh before it
-    int table_subdivisions = 8;       ///< of the stored map, at least; its nodes hold those that are solved
-    /// Further Reynolds numbers, over the main one; solved in the directions of the map of the least
+    int most_directions = 16;         ///< the limit for multiples of the least subdivisions
+    double share_on_last_mesh = 0.4;  ///< share of the directions, where there is more than one mesh
+    int table_subdivisions = 8;       ///< of the stored map, at least; its nodes include the solved ones
+    /// Further Reynolds numbers relative to the main one, solved in the directions of the map with the least
     /// subdivisions on the mesh before the last, from the main one's solution there.
     std::vector<double> further_reynolds_numbers;
-    /// Other closures, solved likewise: the spread is the closure's error.
+    /// Other closures, solved in the same directions: their spread is the closure's error.
     std::vector<Closures> other_closures;
-    int falls = 0;                ///< free falls that the dynamic coefficients are identified from
-    std::size_t fall_mesh = 1;    ///< the mesh they are solved on, where that is one of the loads'
-    double fall_cells = 20'000;   ///< about, of a mesh of their own
-    double fall_step = 1.0;       ///< times the step that a fall gets of itself
+    int falls = 0;                ///< number of free falls from which the dynamic coefficients are identified
+    std::size_t fall_mesh = 1;    ///< index of the falls' mesh, where that is one of the loads'
+    double fall_cells = 20'000;   ///< approximate number of cells of a separate mesh
+    double fall_step = 1.0;       ///< relative to the automatic step of a fall
     double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
-    int least_iterations = 100;   ///< by k-epsilon; half as many from a solution on another mesh
+    int least_iterations = 100;   ///< for k-epsilon; half as many from a solution on another mesh
     int most_iterations = 800;    ///< of each attempt
 };
 
-/// The same with the loads by another closure, on meshes whose layers resolve the boundary layer; k and
-/// epsilon stay those of k-epsilon, on the meshes as they were. The falls are by the closure of the loads.
+/// Returns the quality with another closure for the loads, on meshes whose layers resolve the boundary layer;
+/// k and epsilon stay those of k-epsilon on the original meshes. The falls use the closure of the loads.
 /// Throws Error for a closure that solves for no omega, unless it is k_epsilon, which changes nothing.
 BakeQuality with_loads_by(Closure closure, BakeQuality quality);
 
-/// The same with the falls by another closure than the loads. Throws Error as with_loads_by does.
+/// Returns the quality with another closure for the falls than for the loads. Throws Error as with_loads_by
+/// does.
 BakeQuality with_falls_by(Closure closure, BakeQuality quality);
 
-/// Meshes for falls whose layers resolve the boundary layer at the Reynolds number U L/nu, coarsest first:
-/// one mesh in ever smaller cells, alike on all sides of a body that may turn any of them to its wake.
+/// Returns meshes for falls whose layers resolve the boundary layer at the Reynolds number U L/nu, coarsest
+/// first: one layout with decreasing cell size, equal on all sides of the body, since any side may face the
+/// wake.
 std::vector<FlowMesh> meshes_of_falls(double reynolds_number);
 
-/// The quality of that name, all by k-epsilon; throws Error where there is none.
+/// Returns the quality of that name, with k-epsilon for everything; throws Error where there is none.
 BakeQuality bake_quality(const std::string& name);
 
-/// By what the loads of a quality are solved where nobody asks for another: kOmegaSSTLM, which measurements
-/// and falls support (docs/studies/closures, docs/studies/falls), but for the two that are for trying and for
-/// a first look.
+/// Returns the default closure of a quality's loads: kOmegaSSTLM, which agrees best with measurements and
+/// falls (docs/studies/closures, docs/studies/falls), or k-epsilon for the two qualities for trials and
+/// previews.
 Closure usual_loads_closure(const std::string& quality);
 
-/// The names that bake_quality knows, cheapest first.
+/// Returns the names of the qualities, cheapest first.
 std::vector<std::string> bake_quality_names();
 
 }  // namespace samara

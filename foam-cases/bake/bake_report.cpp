@@ -8,9 +8,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/falls/identification_report.hpp"
-#include "foam-cases/farm/case_record.hpp"
-#include "foam-cases/farm/disk_need.hpp"
+#include "converter/falls/fall_identification.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/shared/print.hpp"
@@ -60,7 +59,7 @@ nlohmann::json mesh_json(const SolvedCase& solved) {
     return provenance.contains("mesh") ? provenance["mesh"] : nlohmann::json();
 }
 
-// The records of the meshes that the cases were solved on, coarsest first.
+// Returns the records of the meshes on which the cases were solved, coarsest first.
 std::vector<nlohmann::json> meshes_of(const std::vector<SolvedCase>& cases) {
     std::vector<nlohmann::json> meshes;
     for (const SolvedCase& solved : cases) {
@@ -134,7 +133,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
     if (!preparation.plan) {
-        print_result("{}: mesh and Kirchhoff tensor alone; the scene asks for no tables\n",
+        print_result("{}: mesh and Kirchhoff tensor only; the scene asks for no tables\n",
                      request.output.string());
         return;
     }
@@ -143,7 +142,7 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
                  request.output.string(), plan.cases.size(), plan.main_reynolds_number,
                  preparation.terminal_speed, plan.reference_length);
     for (const BakeCase& entry : plan.cases) {
-        print_result("  {}  moving along ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
+        print_result("  {}  direction of motion ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
                      entry.direction.y(), entry.direction.z());
     }
     for (const FreeFall& fall : plan.falls) {
@@ -174,8 +173,8 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     print_result("{}: quality {}, {} cases at Reynolds numbers {:.6g}", request.output.string(),
                  plan.quality.name, plan.cases.size(), fmt::join(plan.reynolds_numbers(), ", "));
     if (result.reused > 0) print_result(", {} of them solved before", result.reused);
-    print_result("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "moving along", "drag", "k/U^2",
-                 "epsilon L/U^3", "CPU s");
+    print_result("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "direction of motion", "drag",
+                 "k/U^2", "epsilon L/U^3", "CPU s");
     for (const SolvedCase& solved : cases) {
         const Vector3d& direction = solved.sample.direction;
         print_result("{:<28} ({:7.4f} {:7.4f} {:7.4f}) {:8.3f} {:10.5f} {:13.5f} {:7.1f}\n", solved.name,
@@ -228,8 +227,8 @@ void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result
 
 void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& result) {
     if (!result.conversion || !result.conversion->identification) return;
-    for (const FlownFall& fall : result.conversion->identification->falls) {
-        if (!is_doubtful(fall.balance)) continue;
+    for (const SimulatedFall& fall : result.conversion->identification->falls) {
+        if (!is_unbalanced(fall.balance)) continue;
         print_note(
             "samara bake: note: {}: the momenta of {} do not balance the loads (force {:.0f} %, "
             "moment {:.0f} %), and the coefficients are from it; halve its step with --fall-step {:.3g}\n",

@@ -14,14 +14,15 @@ namespace {
 
 constexpr int weight_subdivisions = 12;  // nodes every 7.5 degrees
 
-/// The node of the map of weights that is nearest in the square, as an index of all nodes row by row.
+/// Returns the index (row by row) of the node of the map of weights that is nearest to a direction in the
+/// map's square.
 std::size_t nearest_node(const Vector3d& direction) {
     const OctahedralCell cell = octahedral_cell(weight_subdivisions, direction);
     return unique_node(weight_subdivisions, cell.row + (cell.row_fraction < 0.5 ? 0 : 1),
                        cell.column + (cell.column_fraction < 0.5 ? 0 : 1));
 }
 
-/// For every node of the map of weights the place of the required direction that it is an image of.
+/// The required directions, and for every node of the map of weights the index of the one whose image it is.
 struct Wedge {
     std::vector<Vector3d> directions;
     std::vector<std::size_t> of_node;
@@ -36,7 +37,8 @@ Wedge finite_wedge(const Symmetry& symmetry) {
     return wedge;
 }
 
-/// Where a body of revolution or a ball has its directions, each nodes' place is the nearest by polar angle.
+/// Returns the wedge of a body of revolution or a sphere: nodes belong to the nearest direction by polar
+/// angle.
 Wedge round_wedge(const Symmetry& symmetry) {
     Wedge wedge{required_directions(symmetry, weight_subdivisions), {}};
     const Vector3d axis = symmetry.axes.transpose() * symmetry.axis;
@@ -154,7 +156,7 @@ std::vector<std::size_t> choose_directions(const Symmetry& symmetry, const std::
             all.push_back(index);
             const double left = mean_squared_spread(symmetry, candidates, all, weights);
             all.pop_back();
-            // Rounding is not to decide between equals.
+            // Rounding must not decide between equals.
             if (left < lowest * (1.0 - 1e-9)) {
                 lowest = left;
                 best = index;

@@ -18,15 +18,14 @@
 namespace samara {
 namespace {
 
-// The most of a new acceleration where the body is so heavy that stability allows more: what takes the whole
-// of it passes on every jolt of the pressure.
+// The largest share of a new acceleration where a heavy body would allow more, since the full acceleration
+// would follow every jolt of the pressure.
 constexpr double most_relaxation = 0.7;
 
-// Of what is stable: the rest is for what the mesh adds to the added mass.
+// The used share of the stable limit; the rest is a margin for the error of the added mass by the mesh.
 constexpr double stable_share = 0.85;
 
-// A body whose mass differs less from that of the fluid it displaces floats; over the latter.
-// A centre of mass that is nearer to the centroid is there but for rounding; over L.
+// A centre of mass nearer to the centroid (in L) coincides with it but for rounding.
 constexpr double negligible_arm = 1e-9;
 
 // CPU seconds, measured with pimpleFoam v1912, one outer and two pressure correctors: on a core of its
@@ -38,17 +37,18 @@ double seconds_per_cell_and_step(Closure closure) {
     return shared * (closure == Closure::laminar ? 3.7e-6 : 5e-6);
 }
 
-// What is left of an error after a step, in the long run, where the fluid answers as `backward` has it (see
-// FallModel::acceleration_relaxation): the largest root of its characteristic polynomial.
+// Returns the factor by which an error changes in a step, in the long run, with the fluid's reaction by the
+// scheme `backward` (see FallModel::acceleration_relaxation): the largest root of the characteristic
+// polynomial.
 double error_left(double share, double inertia_ratio) {
-    const double answer = 0.25 * share * inertia_ratio;
-    Eigen::Matrix4d island_body = Eigen::Matrix4d::Zero();
-    island_body.row(0) << 1.0 - share, -9.0 * answer, 6.0 * answer, -answer;
-    island_body.bottomLeftCorner<3, 3>().setIdentity();
-    return island_body.eigenvalues().cwiseAbs().maxCoeff();
+    const double reaction = 0.25 * share * inertia_ratio;
+    Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
+    companion.row(0) << 1.0 - share, -9.0 * reaction, 6.0 * reaction, -reaction;
+    companion.bottomLeftCorner<3, 3>().setIdentity();
+    return companion.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// The largest share up to one with which errors die out.
+// Returns the largest share, up to one, with which errors decay.
 double largest_stable_share(double inertia_ratio) {
     double stable = 0.0;
     double unstable = 1.0;
@@ -60,10 +60,10 @@ double largest_stable_share(double inertia_ratio) {
     return stable;
 }
 
-// The same axes in the order and with the signs that turn them least from the case's: right-handed. The
-// solver writes where the body is as angles about x, y and z, which tell nothing where its axes start a
-// quarter turn off about y.
-Matrix3d least_turned(const Matrix3d& axes) {
+// Permutes axes and chooses their signs so that the right-handed frame has the smallest rotation from the
+// case's axes. The solver writes orientations as angles about x, y and z, which are singular at a rotation by
+// 90 degrees about y.
+Matrix3d nearest_frame(const Matrix3d& axes) {
     Matrix3d best = axes;
     double best_trace = -std::numeric_limits<double>::infinity();
     std::array<int, 3> order = {0, 1, 2};
@@ -86,18 +86,19 @@ Matrix3d least_turned(const Matrix3d& axes) {
     return best;
 }
 
-// The inertia is in case axes, which are its principal axes where it has no others.
+// Stores principal axes and moments of the inertia (in case axes); the case axes themselves where it is
+// diagonal.
 void take_inertia(const Matrix3d& inertia, FreeFall& fall) {
     const Vector3d moments = inertia.diagonal();
     if ((inertia - Matrix3d(moments.asDiagonal())).norm() <= 1e-9 * inertia.norm()) {
         fall.principal_moments = moments;
         return;
     }
-    fall.principal_axes = least_turned(principal_values(inertia).directions);
+    fall.principal_axes = nearest_frame(principal_values(inertia).directions);
     fall.principal_moments = (fall.principal_axes.transpose() * inertia * fall.principal_axes).diagonal();
 }
 
-// Of the body without the fluid, about its centre of mass.
+// Returns the inertia of the body without the fluid, about its centre of mass.
 Matrix6d own_inertia_of(const ImmersedBody& body) {
     Matrix6d own = Matrix6d::Zero();
     own.topLeftCorner<3, 3>() = body.own_inertia;
@@ -105,8 +106,9 @@ Matrix6d own_inertia_of(const ImmersedBody& body) {
     return own;
 }
 
-// The velocity of a body in fluid at rest that is at `velocity` once the fluid has taken its share. Of a jump
-// in the first step, `backward` asks half of the body: that step is of first order, those after it are not.
+// Returns the initial velocity of a body in fluid at rest that has `velocity` once the fluid has taken its
+// share of the momenta. With `backward` the body provides half of a jump in the first step, which is of first
+// order, unlike the following ones.
 Vector6d velocity_before_fluid_moves(const ImmersedBody& body, const Vector6d& velocity,
                                      const FallModel& model) {
     const Matrix6d own = own_inertia_of(body);
@@ -114,7 +116,7 @@ Vector6d velocity_before_fluid_moves(const ImmersedBody& body, const Vector6d& v
     return left.lu().solve(body.inertia * velocity);
 }
 
-// Where gravity points at the start, along the principal axes from the shortest extent to the longest.
+// Directions of gravity at the start, along the principal axes from the shortest extent to the longest.
 constexpr double start_directions[][3] = {{-0.86, 0.27, 0.433}, {-0.64, 0.5, 0.58}, {-0.35, 0.8, -0.48}};
 
 constexpr const char* own_mesh = "mesh_falls";
@@ -123,7 +125,7 @@ std::string name_of_fall(std::size_t index) {
     return fmt::format("fall_{:02}", index);
 }
 
-/// A plan of nothing but the mesh for falls, of about so many cells.
+/// Returns a plan with only the mesh for falls, of about that number of cells.
 BakePlan plan_of_mesh_of_falls(const Body& body, double cells, double reynolds_number,
                                const FallModel& model) {
     BakeQuality quality = bake_quality("high");
@@ -154,7 +156,7 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
     speed = std::max(speed, terminal_speed(body, fluid, immersed.mass, gravity));
     const double arm = immersed.center_of_buoyancy.norm();
     if (arm <= negligible_arm * immersed.length) return speed;
-    // The fastest of small swings: buoyancy turns the body about axes across its arm.
+    // The fastest small oscillation: the moment of buoyancy is about axes perpendicular to its arm.
     const Vector3d along = immersed.center_of_buoyancy / arm;
     const Matrix3d across = Matrix3d::Identity() - along * along.transpose();
     const Matrix3d mobility = across * immersed.inverse_inertia.topLeftCorner<3, 3>() * across;
@@ -163,25 +165,24 @@ double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyStat
 }
 
 double FallModel::acceleration_relaxation(double inertia_ratio) const {
-    // The fluid answers an acceleration with `inertia_ratio` times the body's own inertia against it, and a
-    // step takes the share s of what this makes of the acceleration.
+    // The fluid reacts to an acceleration with `inertia_ratio` times the body's own inertia, and a step
+    // applies the share s of the resulting acceleration.
     if (!resolved) {
-        // Were the answer at once, an error would grow by 1 - s (1 + ratio) in a step. Three quarters of what
-        // is stable leaves room for what the mesh adds to the added mass.
+        // With an immediate reaction an error would change by the factor 1 - s (1 + ratio) in a step. Three
+        // quarters of the stable limit leave a margin for the error of the added mass by the mesh.
         return std::min(most_relaxation, 0.75 * 2.0 / (1.0 + inertia_ratio));
     }
-    // The answer comes a step late, and `backward` takes it from three velocities that are themselves taken
-    // from two steps each: a_n = (1 - s) a_n-1 - s ratio (9 a_n-2 - 6 a_n-3 + a_n-4)/4. For light bodies that
-    // is stable below s = 0.5/ratio, for others sooner: a sheet of ratio 0.57 with s = 0.7 shook itself to
-    // pieces.
+    // The reaction is a step late, and `backward` computes it from three velocities, each by two
+    // accelerations: a_n = (1 - s) a_n-1 - s ratio (9 a_n-2 - 6 a_n-3 + a_n-4)/4. For light bodies that is
+    // stable below s = 0.5/ratio, for others the limit is lower: a sheet of ratio 0.57 with s = 0.7 diverged.
     return std::min(
         {most_relaxation, 0.4 / inertia_ratio, stable_share * largest_stable_share(inertia_ratio)});
 }
 
 double FallModel::time_step(double inertia_ratio) const {
     if (!resolved) return 0.01;
-    // Taking the share s of each new acceleration lets the body answer step/(s (1 + ratio)) late: by 0.02 L/U
-    // at most, a fortieth of a radian of a swing.
+    // Applying the share s of each new acceleration delays the body by step/(s (1 + ratio)): by 0.02 L/U at
+    // most, a fortieth of a radian of an oscillation.
     constexpr double longest_delay = 0.02;
     return longest_delay * std::min(1.0, acceleration_relaxation(inertia_ratio) * (1.0 + inertia_ratio));
 }
@@ -248,8 +249,8 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
     if (plan.quality.falls == 0) return;
     const FallModel model = fall_model_of(plan.quality.fall_closure);
     const std::string mesh_of_loads = plan.quality.meshes.at(plan.quality.fall_mesh).name;
-    // A mesh of steady loads, fine at the surface and coarse behind it, makes smooth bodies sink a tenth
-    // faster than the meshes by which falls are validated (docs/studies/falls).
+    // On a mesh for steady loads, fine at the surface and coarse behind it, smooth bodies sink a tenth faster
+    // than on the meshes of `samara validate` (docs/studies/falls).
     const bool has_own_mesh = model.resolved || plan.quality.fall_closure != plan.quality.loads_closure;
     double reynolds_number = 0.0;
     for (int i = 0; i < plan.quality.falls; ++i) {

@@ -11,59 +11,62 @@
 
 namespace samara {
 
-/// What a fall is solved by: a closure above the laminar Reynolds number, and the order of its steps in time
-/// that goes with its mesh.
+/// The model of a fall: its closure above the laminar Reynolds number, and the order of its time steps, which
+/// depends on the mesh.
 struct FallModel {
     Closure closure = Closure::k_epsilon;
-    /// Whether the mesh resolves the boundary layer and time is taken to second order, or wall functions
-    /// stand for the one and time is taken to first.
+    /// Whether the mesh resolves the boundary layer and time steps are of second order; else wall functions
+    /// model the boundary layer and time steps are of first order.
     bool resolved = false;
 
-    /// The most of a new acceleration that a step may take, of a body whose largest_inertia_ratio() that is.
+    /// Returns the largest stable share of a new acceleration in a step, for a body with this
+    /// largest_inertia_ratio().
     [[nodiscard]] double acceleration_relaxation(double inertia_ratio) const;
-    /// The step over L/U of such a body (docs/validate.md).
+    /// Returns the time step (in L/U) for a body with this largest_inertia_ratio() (docs/validate.md).
     [[nodiscard]] double time_step(double inertia_ratio) const;
 };
 
-/// The closure of that word (OpenFOAM's); throws Error unless falls are solved by it.
+/// Returns the closure with OpenFOAM's word `name`; throws Error where falls are not solved by it.
 Closure closure_of_falls(const std::string& name);
 
-/// The model of falls by that closure: resolved but for those of k and epsilon, whose walls are functions.
+/// Returns the model of falls by a closure: with resolved boundary layer, except for closures of k and
+/// epsilon, which use wall functions.
 FallModel fall_model_of(Closure closure);
 
-/// The largest of the fluid's inertia over the body's own, over all ways to move and turn: what makes a
-/// solver that takes flow and motion in turn unstable, and so sets how much of a new acceleration it may
-/// take.
+/// Returns the largest ratio of the fluid's added inertia to the body's own over all translations and
+/// rotations. It determines the stability of a solver that alternates between flow and motion, and so the
+/// share of a new acceleration that a step may take.
 double largest_inertia_ratio(const ImmersedBody& body);
 
-/// About the speed (m/s) at which the body will move, rims included: the largest of that at the start, of the
-/// terminal speed, and of a body hung off its centre of buoyancy that swings. Zero where nothing moves it.
+/// Estimates the speed (m/s) of the body and its rims: the largest of the speed at the start, the terminal
+/// speed, and the speed of small oscillations about the centre of buoyancy. Zero where nothing moves it.
 double fall_speed(const Body& body, const ImmersedBody& immersed, const BodyState& start, const Fluid& fluid,
                   double gravity);
 
-/// How long a fall that coefficients are identified from lasts, over L/U: some six swings.
+/// The duration of a fall from which coefficients are identified, in L/U: about six oscillations.
 inline constexpr double identification_fall_duration = 30.0;
 
-/// The states from rest from which such falls start, each in its way oblique to all of the body's principal
-/// axes, so that none of its motions is left out. `index`: of the fall.
+/// Returns the start of such a fall, from rest and oblique to all of the body's principal axes, differently
+/// for each `index`, so that all motions occur.
 BodyState identification_start(const Body& body, int index);
 
-/// Adds the quality's falls to a plan and its estimated cost: of the body in the fluid, under a gravity of
-/// that size (m/s^2), with each of the masses in turn. The body must have its Kirchhoff tensor.
+/// Adds the quality's falls and their estimated cost to a plan: of the body in the fluid, under a gravity of
+/// that magnitude (m/s^2), alternating between the masses. The body must have its Kirchhoff tensor.
 void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpecification>& masses,
                double gravity, BakePlan& plan);
 
-/// A free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes). `speed`
-/// (m/s): of the case's units, about that at which it falls. The body's added mass must be there.
+/// Plans a free fall of the body from a state, over `duration` (s), under a gravity (m/s^2, world axes).
+/// `speed` (m/s): the case's unit of velocity, about the speed of the fall. The body must have its added
+/// mass.
 FreeFall plan_fall(const Body& body, const ImmersedBody& immersed, const BodyState& start,
                    const Vector3d& gravity, double speed, double duration, const FallModel& model);
 
-/// A plan of the kind fall: with no cases but these falls of one body, all on the mesh whose number of cells
-/// around the body is nearest to `cells`, as a ratio: of meshes_of_falls(), or of those of all qualities
-/// where the model is not resolved. They are called fall_00, fall_01, ...
+/// Returns a plan of the type `fall`: only these falls of one body, named fall_00, fall_01, ..., all on the
+/// mesh whose number of cells is nearest to `cells` by ratio: of meshes_of_falls(), or of those of all
+/// qualities where the model is not resolved.
 BakePlan plan_falls(const Body& body, double cells, std::vector<FreeFall> falls, const FallModel& model);
 
-/// CPU seconds of a fall on a mesh of so many cells, an estimate.
+/// Estimates the CPU seconds of a fall on a mesh with that number of cells.
 double estimated_fall_seconds(const FreeFall& fall, double cells);
 
 }  // namespace samara

@@ -13,7 +13,7 @@
 namespace samara {
 namespace {
 
-/// A deviation of an entry by its standard errors, k and epsilon by their logarithms.
+/// Draws a random deviation of an entry by its standard errors, of k and epsilon by their logarithms.
 LoadEntry deviate(const LoadEntry& entry, const LoadEntryError& error, const Noise& noise,
                   std::size_t direction) {
     const auto of_vectors = [&](std::size_t number) {
@@ -29,7 +29,7 @@ LoadEntry deviate(const LoadEntry& entry, const LoadEntryError& error, const Noi
             scalars[1] * logarithm(entry.dissipation_rate, error.dissipation_rate)};
 }
 
-/// The deviations in the solved directions (none) and the unsolved ones, map axes.
+/// Draws the deviations in the unsolved directions, with zero in the solved ones; map axes.
 std::vector<DirectionSample> drawn_samples(const LoadTables& tables, const Symmetry& symmetry,
                                            const UncertainTables& uncertain, std::uint32_t draw) {
     LoadTables sampling = tables;
@@ -50,14 +50,14 @@ std::vector<DirectionSample> drawn_samples(const LoadTables& tables, const Symme
     return samples;
 }
 
-/// A difference of a figure that nobody sees, in its SI unit.
-double unseen(const CataloguedMetric& entry, const SampledFalls& simulation, double length) {
+/// Returns the negligible difference of a metric, in its SI unit.
+double negligible(const CataloguedMetric& entry, const SampledFalls& simulation, double length) {
     const auto descent = simulation.mean(Metric::descent_speed);
     if (entry.metric != Metric::rms_angular_speed || !descent) return entry.allowed.always;
     return degree * std::abs(descent->value) / length;
 }
 
-/// The largest error over what the tolerance allows.
+/// Returns the largest error relative to what the tolerance allows.
 double largest_share(const MotionError& error, double tolerance, double MotionError::OfMetric::*member) {
     double largest = 0.0;
     for (const Metric metric : baked_metrics) {
@@ -110,7 +110,7 @@ LoadTables drawn_tables(const LoadTables& tables, const Symmetry& symmetry, cons
     return drawn;
 }
 
-SampledFalls fly_for_bake(const Scene& scene, std::size_t body, const Body& of_body, int falls) {
+SampledFalls simulate_for_bake(const Scene& scene, std::size_t body, const Body& of_body, int falls) {
     return sample_falls(scene, body, LoadedBody{of_body, ""}, {.falls = falls, .most_steps = INFINITY});
 }
 
@@ -124,9 +124,9 @@ MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_bo
         for (int draw = 0; draw < draws; ++draw) {
             other.tables =
                 drawn_tables(*of_body.tables, of_body.symmetry, uncertain, static_cast<std::uint32_t>(draw));
-            const SampledFalls flown = fly_for_bake(scene, body, other, falls);
+            const SampledFalls drawn_falls = simulate_for_bake(scene, body, other, falls);
             for (const Metric metric : baked_metrics) {
-                if (const auto mean = flown.mean(metric)) drawn[metric].push_back(mean->value);
+                if (const auto mean = drawn_falls.mean(metric)) drawn[metric].push_back(mean->value);
             }
         }
     }
@@ -138,9 +138,9 @@ MotionError motion_error(const Scene& scene, std::size_t body, const Body& of_bo
         const double chance = mean->error.value_or(0.0);
         const double length = reference_length(of_body.moments.surface_area);
         MotionError::OfMetric error{0.0, chance / std::abs(value),
-                                    unseen(entry, simulation, length) / std::abs(value)};
+                                    negligible(entry, simulation, length) / std::abs(value)};
         if (2 * drawn[metric].size() > static_cast<std::size_t>(draws)) {
-            // Both ensembles of a difference have their chance, of which a few draws leave a part unseen.
+            // Both ensembles of a difference contribute chance, which a few draws do not show completely.
             const double of_chance = 2.0 * chance * chance;
             const double of_table = std::max(variance_of(drawn[metric], value) - of_chance, 0.0) +
                                     of_chance * std::sqrt(2.0 / static_cast<double>(draws));

@@ -10,10 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "foam-cases/bake/bake.hpp"
-#include "foam-cases/bake/body_preparation.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/farm/cpu_account.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
 #include "samara/analysis/comparison/reference_uncertainty.hpp"
 #include "samara/core/base/error.hpp"
@@ -38,7 +37,7 @@ struct Falling {
     std::vector<double> start_times;  // s
 };
 
-// One for all copies, so that their cases differ in the start alone.
+// The unit of velocity, one for all copies, so that their cases differ only in the start.
 double speed_unit(const Falling& falling) {
     double speed = 0.0;
     for (const BodyState& start : falling.starts) {
@@ -103,7 +102,7 @@ FallSolution read_solution(const fs::path& fall_folder) {
         if (json.at("mesh").is_object()) solution.cells = json.at("mesh").at("cells");
         return solution;
     } catch (const nlohmann::json::exception& reason) {
-        throw Error(fmt::format("{}: an entry is missing or of the wrong kind ({}); remove it and run again",
+        throw Error(fmt::format("{}: an entry is missing or of the wrong type ({}); remove it and run again",
                                 file.string(), reason.what()));
     }
 }
@@ -225,7 +224,7 @@ std::vector<TimedPose> flow_poses(const FallRecord& record, const BodyState& sta
     for (const FallSample& sample : record.samples) {
         Pose pose;
         pose.position = start.position + to_flow * (sample.position - fall.center_of_mass) * fall.length;
-        pose.orientation = Quaterniond(to_flow * sample.turn * fall.axes.transpose());
+        pose.orientation = Quaterniond(to_flow * sample.rotation * fall.axes.transpose());
         keep_sign_continuous(pose.orientation, poses.back().pose.orientation);
         pose.velocity = to_flow * sample.velocity * fall.speed;
         pose.angular_velocity = to_flow * sample.angular_velocity / fall.time_unit();
@@ -234,7 +233,7 @@ std::vector<TimedPose> flow_poses(const FallRecord& record, const BodyState& sta
     return poses;
 }
 
-// At the motion's times, until the fall's last step or half a step after it.
+// Returns the poses at the motion's times, until half a step after the fall's last step.
 std::vector<Pose> poses_at(const std::vector<double>& times, const SolvedFall& fall,
                            const Surroundings& surroundings) {
     const std::vector<TimedPose> steps = flow_poses(fall.record, fall.start);

@@ -19,52 +19,55 @@
 
 namespace samara {
 
-/// Motion files of other solutions of a scene, by what they differ in ("mesh", "closure"): one, which differs
-/// from the motion that they are held beside, or two, which differ from each other.
+/// Motion files of other solutions of a scene, by the cause of their difference ("mesh", "closure"): one, to
+/// be compared with the motion itself, or two, to be compared with each other.
 using OtherSolutions = std::map<std::string, std::vector<std::filesystem::path>>;
 
 /// A scene that is to be solved by full CFD.
 struct ValidationRequest {
     Scene scene;
-    std::filesystem::path output;               ///< the motion file
-    double cells = BakeQuality().fall_cells;    ///< of the mesh, about: as the falls of a bake have
-    double step = 1.0;                          ///< over that of the model
-    double fields = 0.0;                        ///< flows a second that are kept for pictures; 0: none
+    std::filesystem::path output;  ///< the motion file
+    double cells =
+        BakeQuality()
+            .fall_cells;  ///< approximate number of cells of the mesh, by default as for the falls of a bake
+    double step = 1.0;    ///< relative to the model's time step
+    double fields = 0.0;  ///< flow fields per second that are kept for pictures; 0: none
     Closure closure = Closure::k_omega_sst_lm;  ///< above the laminar Reynolds number
-    OtherSolutions beside;                      ///< tell the motion's uncertainties
+    OtherSolutions beside;                      ///< give the motion's uncertainties
 };
 
-/// Above this a step moves the fluid past several cells at once, and the solution is smeared.
-inline constexpr double doubtful_courant_number = 5.0;
+/// The limit above which a fall gets a warning: a step moves the fluid past several cells, and the solution
+/// is smeared.
+inline constexpr double largest_good_courant_number = 5.0;
 
-/// How the fall was solved in the end.
+/// How a fall was solved.
 struct FallSolution {
-    std::vector<std::string> attempts;  ///< in words; the last is the one that held
-    double time_step = 0.0;             ///< over L/U
+    std::vector<std::string> attempts;  ///< in words; the last one succeeded
+    double time_step = 0.0;             ///< in L/U
     double largest_courant_number = 0.0;
     int cells = 0;  ///< of the mesh
 };
 
+/// The result of validate_scene().
 struct ValidationResult {
-    BakePlan plan;                        ///< of a fall for each copy of the body
-    std::vector<FallSolution> solutions;  ///< of each
-    std::vector<FallBalance> balances;    ///< of each
+    BakePlan plan;                        ///< with a fall for each copy of the body
+    std::vector<FallSolution> solutions;  ///< of each fall
+    std::vector<FallBalance> balances;    ///< of each fall
     Motion motion;
     double cpu_seconds = 0.0;  ///< of the mesh and the falls
     std::size_t reused = 0;    ///< falls that an earlier run had solved
 
-    /// The worst of all falls, force and moment each.
+    /// Returns the largest residuals of all falls, of force and moment separately.
     [[nodiscard]] FallBalance worst_balance() const;
-    /// The largest of all falls.
+    /// Returns the largest Courant number of all falls.
     [[nodiscard]] double largest_courant_number() const;
 };
 
-/// The motion of a file with what others tell of its uncertainties (uncertainty_beside), in place of those
-/// that it had by the same causes. Throws Error where one of the files cannot be read or compared with the
-/// other.
+/// Reads a motion and replaces its uncertainties by those from other solutions (uncertainty_beside) of the
+/// same causes. Throws Error where one of the files cannot be read or compared with the other.
 Motion with_uncertainties(const std::filesystem::path& file, const OtherSolutions& beside);
 
-/// Throws Error where full CFD cannot solve the scene: it has one body, whose copies are of one size, no
+/// Throws Error unless full CFD can solve the scene: it must have one body, whose copies are of one size, no
 /// ground, no obstacles, no wind and no gust.
 void require_falls_of_one_body(const Scene& scene);
 
@@ -72,13 +75,13 @@ void require_falls_of_one_body(const Scene& scene);
 BakePlan prepare_validation(const ValidationRequest& request);
 
 /// Solves the scene's falls, one for each copy of its body, in full CFD, in the folder of cases beside the
-/// output, and writes the motion file. What an earlier call solved on the same inputs is reused; what was
-/// interrupted goes on. `planned` is told of the plan before anything long begins. Throws Error, also where
-/// one of the falls could not be solved: the others are kept.
+/// output, and writes the motion file. Falls that an earlier call solved with the same inputs are reused;
+/// interrupted ones are continued. `planned` is called with the plan before the long work begins. Throws
+/// Error, also where one of the falls could not be solved: the others are kept.
 ValidationResult validate_scene(const ValidationRequest& request, const FarmOptions& farm,
                                 const std::function<void(const BakePlan&)>& planned);
 
-/// A solved fall, and how it started in the flow's frame, at `start_time` (s): until then the body is held.
+/// A solved fall with its start in the flow's frame at `start_time` (s), until which the body is held.
 struct SolvedFall {
     FallRecord record;
     BodyState start;

@@ -15,9 +15,7 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
-#include "foam-cases/farm/case_record.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
-#include "foam-cases/farm/disk_need.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
@@ -32,16 +30,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* mesh_record = "mesh.json";
 constexpr const char* failure_record = "failed.json";
-constexpr std::uintmax_t room_of_a_log = 65'536;  // bytes; with less, a disk is full
-constexpr const char* check_log = "log.check";    // what a check says, in its last line
+constexpr std::uintmax_t room_of_a_log = 65'536;  // bytes; with less space a disk counts as full
+constexpr const char* check_log = "log.check";    // log of a check, with its result in the last line
 
-// A case or a fall, as the farm sees it.
+// A case or a fall to be solved.
 struct Job {
     std::string name;
     std::string mesh;
     std::string start_from;
-    double end;      // the iteration or the time at which it will end, an estimate for cases
-    double seconds;  // CPU seconds, an estimate
+    double end;      // final iteration (an estimate) or time
+    double seconds;  // estimated CPU seconds
 };
 
 std::vector<Job> jobs_of(const BakePlan& plan) {
@@ -57,7 +55,7 @@ std::vector<Job> jobs_of(const BakePlan& plan) {
     return jobs;
 }
 
-// The last line that holds the text; empty where there is none.
+// Returns the last line that contains the text; empty where there is none.
 std::string last_line(const fs::path& file, const std::string& text = "") {
     if (!fs::exists(file)) return {};
     std::istringstream lines(read_bytes(file));
@@ -68,7 +66,8 @@ std::string last_line(const fs::path& file, const std::string& text = "") {
     return last;
 }
 
-// Paths inside the folder of cases, as its scripts name them, are given as seen from here.
+// Replaces paths relative to the folder of cases, as its scripts print them, by paths relative to the working
+// folder.
 std::string with_paths_from_here(std::string line, const fs::path& folder, const std::string& name) {
     const std::string inside = " " + name + "/";
     const std::string outside = fmt::format(" {}/{}/", folder.string(), name);
@@ -79,7 +78,7 @@ std::string with_paths_from_here(std::string line, const fs::path& folder, const
     return line;
 }
 
-// What went wrong with the mesh or case: the line that its script left, or that its cluster's job left.
+// Returns the error of a mesh or case: the line that its script or its cluster job printed.
 std::string error_of(const fs::path& folder, const std::string& name, bool on_cluster) {
     const std::string line = last_line(folder / name / check_log);
     if (line.starts_with(name + ": ")) {
@@ -103,7 +102,7 @@ std::string error_of(const fs::path& folder, const std::string& name, bool on_cl
                        (folder / "log.snakemake").string());
 }
 
-// Why the mesh or case is left out; nothing where it is not.
+// Returns why the mesh or case is left out; nothing where it is not.
 std::optional<std::string> failure_of(const fs::path& folder, const std::string& name) {
     const fs::path record = folder / name / failure_record;
     if (!fs::exists(record)) return std::nullopt;
@@ -130,8 +129,8 @@ bool is_settled(const fs::path& folder, const Job& entry) {
            fs::exists(folder / entry.mesh / failure_record);
 }
 
-// Reports that cases are neither solved nor left out, or that all are left out: by the fault of the first
-// case, those before the others that nothing is known against but that they did not run to their end.
+// Throws Error about cases that are neither solved nor left out, or about all being left out: with the error
+// of the first case, unfinished cases before failed ones.
 [[noreturn]] void report_failure(const fs::path& folder, const BakePlan& plan, bool on_cluster) {
     const std::vector<Job> jobs = jobs_of(plan);
     std::vector<const Job*> failed;
@@ -151,7 +150,7 @@ bool is_settled(const fs::path& folder, const Job& entry) {
                             error_of(folder, first.name, on_cluster), failed.size(), jobs.size()));
 }
 
-// The iteration or time at which the last line of the last round's history of forces stands; 0 where there is
+// Returns the iteration or time of the last line of the last round's history of forces; 0 where there is
 // none.
 double last_iteration(const fs::path& case_folder) {
     double last_round = -1.0;
@@ -168,14 +167,14 @@ double last_iteration(const fs::path& case_folder) {
     constexpr std::streamoff more_than_a_line = 1024;
     file.seekg(std::max<std::streamoff>(0, file.tellg() - more_than_a_line));
     double last = std::max(0.0, last_round);
-    // The first line may have lost its start; one without its end is still being written.
+    // The first line may be incomplete; a line without its end is still being written.
     for (std::string line; std::getline(file, line) && !file.eof();) {
         if (!line.starts_with('#')) last = std::strtod(line.c_str(), nullptr);
     }
     return last;
 }
 
-// How far a case has come, 0 to 1, where it takes so many iterations or so long.
+// Returns the progress of a case, 0 to 1, relative to its final iteration or time.
 double solved_share(const fs::path& case_folder, double end) {
     if (is_solved(case_folder) || fs::exists(case_folder / failure_record)) return 1.0;
     return std::min(1.0, last_iteration(case_folder) / end);
@@ -195,7 +194,8 @@ bool waits_for_failed_start(const fs::path& folder, const BakePlan& plan) {
     });
 }
 
-// PYTHONPATH without its relative folders: Python would take modules from the folder of cases.
+// Returns PYTHONPATH without its relative folders, by which Python would load modules from the folder of
+// cases.
 std::string absolute_python_path() {
     const char* given = std::getenv("PYTHONPATH");
     std::istringstream folders(given == nullptr ? "" : given);
@@ -228,8 +228,8 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
         }
         progress.update(all * done / total, all);
     };
-    // Absolute: a relative path may begin with a dash. What Snakemake noted there is of no use for the next
-    // run, and of a folder from other hands nobody knows what it is.
+    // Paths are absolute, since a relative one may begin with a dash. Snakemake's notes of an earlier run are
+    // not needed, and those in a folder of another origin are not trusted.
     fs::remove_all(folder / ".snakemake");
     std::vector<std::string> words = {"env",
                                       "PYTHONSAFEPATH=1",
@@ -273,14 +273,14 @@ std::size_t count_solved(const fs::path& folder, const BakePlan& plan) {
 
 namespace {
 
-// The words before each of OpenFOAM's programs, where they are in a container.
+// Returns the words before each of OpenFOAM's programs that run it in a container.
 std::vector<std::string> words_of_container() {
     const char* given = std::getenv("SAMARA_OPENFOAM");
     std::istringstream stream(given == nullptr ? "" : given);
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// Throws Error where the container's OpenFOAM does not answer.
+// Throws Error where the container's OpenFOAM does not run.
 void require_container(const std::string& work, const std::vector<std::string>& container) {
     const TemporaryFolder said;
     for (const char* program : {"simpleFoam", "pimpleFoam", "snappyHexMesh"}) {
@@ -290,7 +290,7 @@ void require_container(const std::string& work, const std::vector<std::string>& 
         try {
             status = run_subprocess(words, said.path() / "said");
         } catch (const Error&) {
-            // told below
+            // reported below
         }
         if (status == 0) continue;
         throw Error(fmt::format(
@@ -343,7 +343,7 @@ std::vector<LeftOutCase> solve_cases(const fs::path& folder, const BakePlan& pla
     for (const Job& entry : jobs_of(plan)) {
         if (!is_settled(folder, entry)) fs::remove(folder / entry.name / check_log);
     }
-    // A case whose start failed starts afresh, which Snakemake knows of only when it begins once more.
+    // A case whose start failed begins from the undisturbed flow, which needs another run of Snakemake.
     std::size_t left = unsettled(folder, plan).size();
     if (left > 0) require_room(folder, bytes_to_solve(folder, plan));
     while (left > 0) {

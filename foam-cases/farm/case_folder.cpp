@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "foam-cases/farm/case_inspection.hpp"
-#include "foam-cases/farm/case_parameters.hpp"
-#include "foam-cases/farm/case_record.hpp"
+#include "foam-cases/farm/case_records.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
@@ -21,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the scripts in a case share with those of the farm, beside the foam_cases; a copy goes into each case.
-// It says how files are read and faults are worded, and so is no input of a solution.
+// The Python module that the scripts in a case share with those of the farm; a copy is put into each case. It
+// reads files and words errors, and so is no input of a solution.
 constexpr const char* helper_file = "case_files.py";
 
-// What stands in the folder for who opens or copies its cases.
+// The README of a folder of cases.
 constexpr const char* folder_notes =
     "OpenFOAM cases and their meshes, by samara (docs/bake.md, docs/file-formats.md). ParaView opens each by "
     "its file\n"
@@ -34,7 +32,7 @@ constexpr const char* folder_notes =
     "mesh's own folder beside it; to copy one case alone take 'cp -rL CASE ELSEWHERE', which copies the mesh "
     "too.\n";
 
-// What a fall's case has from the flow's: the fluid and its turbulence.
+// The files that a fall's case shares with the flow's: the fluid and its turbulence.
 constexpr const char* shared_files[] = {"0.orig/k",
                                         "0.orig/epsilon",
                                         "0.orig/omega",
@@ -44,7 +42,7 @@ constexpr const char* shared_files[] = {"0.orig/k",
                                         "constant/transportProperties",
                                         "constant/turbulenceProperties"};
 
-// What the mesh depends on beside the parameters of the mesh.
+// The inputs of a mesh besides its parameters.
 constexpr const char* mesh_files[] = {"Allrun",
                                       "constant/triSurface/body.stl",
                                       "system/blockMeshDict",
@@ -55,7 +53,7 @@ constexpr const char* mesh_files[] = {"Allrun",
 CaseFiles read_template(const fs::path& folder) {
     CaseFiles files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        // What Python compiled is no part of a case.
+        // Python's compiled files are no part of a case.
         if (entry.is_regular_file() && entry.path().parent_path().filename() != "__pycache__") {
             files[fs::relative(entry.path(), folder)] = read_bytes(entry.path());
         }
@@ -105,13 +103,13 @@ void write_files(const fs::path& folder, const CaseFiles& files) {
         const fs::path path = folder / name;
         if (!holds(path, bytes)) {
             fs::create_directories(path.parent_path());
-            fs::remove(path);  // where it has another name elsewhere, that stays as it is
-            // Not synced one by one: a file that a crash cut short differs, and is written again.
+            fs::remove(path);  // a hard link elsewhere keeps its content
+            // Not synced: a file that a crash truncated differs, and is written again.
             std::ofstream file(path, std::ios::binary);
             file << bytes;
             if (!file.flush()) throw Error(fmt::format("{}: cannot be written", path.string()));
         }
-        // Also where the file is whole: a kill may have come between the two.
+        // Also for complete files: an earlier call may have been killed before this.
         if (bytes.starts_with("#!")) {
             fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                             fs::perm_options::add);
@@ -134,7 +132,7 @@ void write_foam_file(const fs::path& folder) {
     if (!fs::exists(file)) replace_file_with(file, "");
 }
 
-// Removes a record that belongs to other inputs, or that cannot be read; says whether it did.
+// Removes a record that belongs to other inputs or cannot be read; returns whether it did.
 bool discard_stale(const fs::path& record, const std::string& hash) {
     if (!fs::exists(record)) return false;
     const nlohmann::json json = read_record(record);
@@ -156,7 +154,7 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
 }
 
 void write_mesh_case(const fs::path& folder, const InputFolder& mesh) {
-    // A mesh that was removed since is made again.
+    // A mesh that was removed is made again.
     const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? mesh.hash : "";
     discard_stale(folder / "mesh.json", needed);
     discard_stale(folder / "failed.json", mesh.hash);
@@ -168,8 +166,7 @@ void write_case(const fs::path& folder, const InputFolder& one) {
     const bool solved_before = discard_stale(folder / "provenance.json", one.hash);
     const bool failed_before = discard_stale(folder / "failed.json", one.hash);
     if (solved_before || failed_before) {
-        // Its histories would pass for progress, and the record of how they came about is of no use without
-        // them.
+        // Its histories would count as progress, and the records of attempts are useless without them.
         for (const char* name : {"postProcessing", "rounds.json", "attempts.json"})
             fs::remove_all(folder / name);
     }
@@ -179,7 +176,7 @@ void write_case(const fs::path& folder, const InputFolder& one) {
     if (one.type == FolderType::flow) link_to_mesh(folder, one.mesh, "triSurface");
 }
 
-// The folders of all that is planned, without the body file and the plan beside them.
+// Returns all planned folders, without the body file and the plan beside them.
 InputFolders input_folders(const Body& body, const BakePlan& plan, const fs::path& foam_cases) {
     const CaseFiles body_flow = read_template(foam_cases / "templates/body-flow");
     const std::string stl = case_surface_stl(body, plan);
@@ -239,9 +236,9 @@ void write_case_folder(const fs::path& folder, const Body& body, const BakePlan&
     if (unplanned == Unplanned::removed) remove_unplanned_cases(folder, plan);
 
     nlohmann::json json = plan_json(plan);
-    for (const char* kind : {"meshes", "cases", "falls"}) {
-        if (!json.contains(kind)) continue;
-        for (nlohmann::json& entry : json[kind]) {
+    for (const char* list : {"meshes", "cases", "falls"}) {
+        if (!json.contains(list)) continue;
+        for (nlohmann::json& entry : json[list]) {
             const auto name = entry["name"].get<std::string>();
             const InputFolder& one = folders.at(name);
             entry["inputs_hash"] = one.hash;

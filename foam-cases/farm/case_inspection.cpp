@@ -1,13 +1,12 @@
-#include "foam-cases/farm/case_inspection.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "converter/openfoam/foam_data.hpp"
-#include "converter/openfoam/time_folders.hpp"
+#include "converter/openfoam/foam_file.hpp"
+#include "converter/openfoam/foam_history.hpp"
+#include "foam-cases/farm/case_folder.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 
@@ -16,15 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beside the meshes, cases and falls.
+// The files beside the folders of meshes, cases and falls.
 constexpr std::string_view files_beside[] = {".lock",     ".cluster",     "README",
                                              "plan.json", "body.body.h5", "log.snakemake"};
-// Snakemake's own, which is removed before it runs.
+// Snakemake's folder, which is removed before it runs.
 constexpr std::string_view notes_of_snakemake = ".snakemake";
-// The folders of cases that other plans have made there.
+// The names of folders that other plans may have made there begin so.
 constexpr std::string_view names_of_cases[] = {"direction_", "probe_", "fall_", "mesh"};
 
-// What solving leaves in a case's own folder.
+// The files that solving leaves in a case's folder.
 constexpr std::string_view records[] = {"case.foam",       "round",       "rounds.json", "attempts.json",
                                         "provenance.json", "failed.json", "mesh.json"};
 constexpr std::string_view made_by_surface_features[] = {"constant/triSurface/body.eMesh",
@@ -34,10 +33,10 @@ bool is_one_of(std::string_view name, const auto& names) {
     return std::ranges::find(names, name) != std::end(names);
 }
 
-// Of files that are written beside their place, by samara and by its scripts.
+// Whether the name is of a temporary file of samara, its scripts or a network file system.
 bool is_temporary(const std::string& name) {
     return (name.starts_with(".samara.") && name.ends_with(".tmp")) || name.ends_with(".json.part") ||
-           name.starts_with(".nfs");  // which a network file system keeps until they are closed
+           name.starts_with(".nfs");  // kept by a network file system until the file is closed
 }
 
 bool is_time(const std::string& name) {
@@ -51,13 +50,13 @@ bool is_of_processor(const std::string& name) {
                        [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
 }
 
-/// One folder that is held against what is planned in it.
+/// Checks one folder against what is planned in it.
 class FolderInspection {
   public:
     FolderInspection(fs::path folder, const InputFolder& planned)
         : folder_(std::move(folder)), planned_(planned) {}
 
-    void run() const { look_into(fs::path()); }
+    void run() const { inspect(fs::path()); }
 
   private:
     [[nodiscard]] Error error(const fs::path& file, const std::string& what) const {
@@ -65,13 +64,13 @@ class FolderInspection {
                                  file.string(), what, folder_.string()));
     }
 
-    void look_into(const fs::path& inside) const {
+    void inspect(const fs::path& inside) const {
         for (const auto& entry : fs::directory_iterator(folder_ / inside)) {
             const fs::path name = inside / entry.path().filename();
             const fs::file_status status = entry.symlink_status();
             if (status.type() == fs::file_type::symlink && is_known_link(name)) continue;
             if (status.type() == fs::file_type::directory && is_known_folder(name)) {
-                look_into(name);
+                inspect(name);
             } else if (status.type() == fs::file_type::regular && is_known_file(name)) {
                 if (is_read_by_solver(name)) require_data(name);
             } else {
@@ -88,14 +87,15 @@ class FolderInspection {
         return "is neither a file nor a folder";
     }
 
-    /// A link to a mesh is made anew, one to a start is removed.
+    /// Whether the link is one that samara made: a link to a mesh is replaced, one to a start is removed.
     [[nodiscard]] bool is_known_link(const fs::path& name) const {
         if (planned_.type == FolderType::mesh) return false;
         return name == "startCase" || name == "constant/polyMesh" ||
                (planned_.type == FolderType::flow && name == "constant/triSurface");
     }
 
-    /// Of a time, a mesh or a history, below which any file may be.
+    /// Whether the path is in a folder of the solver (a time, a mesh or a history), which may contain any
+    /// file.
     [[nodiscard]] bool is_of_solver(const fs::path& name) const {
         const std::string first = name.begin()->string();
         const bool is_solved = planned_.type != FolderType::mesh;
@@ -122,7 +122,7 @@ class FolderInspection {
             return is_edge || (is_of_solver(name) && name.extension() != ".gz");
         }
         const std::string only = name.string();
-        // `parameters` includes it: flows have none of their own.
+        // The file is included by `parameters`; flows have none.
         if (only == "remedy") return planned_.type != FolderType::flow;
         return is_one_of(only, records) || only.starts_with("log.");
     }
@@ -134,7 +134,7 @@ class FolderInspection {
     }
 
     void require_data(const fs::path& name) const {
-        // The start is a copy of what is planned.
+        // The start is a copy of a planned file.
         const auto start = planned_.files.find(fs::path("0.orig") / name.filename());
         const fs::path file = folder_ / name;
         if (*name.begin() == "0" && start != planned_.files.end() && read_bytes(file) == start->second)
@@ -164,9 +164,9 @@ void require_known_files(const fs::path& cases, const InputFolders& planned) {
     }
     for (const auto& entry : fs::directory_iterator(cases)) {
         const std::string name = entry.path().filename().string();
-        const fs::file_type kind = entry.symlink_status().type();
+        const fs::file_type entry_type = entry.symlink_status().type();
         const auto found = planned.find(name);
-        if (kind == fs::file_type::directory) {
+        if (entry_type == fs::file_type::directory) {
             if (found != planned.end()) {
                 FolderInspection(entry.path(), found->second).run();
                 continue;
@@ -177,12 +177,13 @@ void require_known_files(const fs::path& cases, const InputFolders& planned) {
                 continue;
             }
         }
-        if (kind == fs::file_type::regular && (is_one_of(name, files_beside) || is_temporary(name))) continue;
+        if (entry_type == fs::file_type::regular && (is_one_of(name, files_beside) || is_temporary(name)))
+            continue;
         throw Error(fmt::format(
             "{}: is {}; move it out of {}, or remove that folder, whose cases are then solved anew",
             entry.path().string(),
-            kind == fs::file_type::symlink ? "a link, which is not followed here"
-                                           : "nothing that samara makes here",
+            entry_type == fs::file_type::symlink ? "a link, which is not followed here"
+                                                 : "nothing that samara makes here",
             cases.string()));
     }
 }

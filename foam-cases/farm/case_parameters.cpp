@@ -1,5 +1,3 @@
-#include "foam-cases/farm/case_parameters.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "foam-cases/farm/case_folder.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -50,8 +49,8 @@ ValueRange find_value(const std::string& text, const std::string& name) {
     throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
 }
 
-// At which a boundary layer becomes turbulent by the turbulence of the flow outside, over its momentum
-// thickness: without a pressure gradient (Langtry & Menter, AIAA Journal 47, 2009).
+// Returns the momentum-thickness Reynolds number at which a boundary layer becomes turbulent by the
+// turbulence of the outer flow, without pressure gradient (Langtry & Menter, AIAA Journal 47, 2009).
 double transition_reynolds_number(double intensity) {
     constexpr double least_percent = 0.027;
     const double percent = std::max(least_percent, 100.0 * intensity);
@@ -86,7 +85,8 @@ std::string foam_tensor(const Matrix3d& matrix) {
     return text + ")";
 }
 
-// So far up that the pull from there does not change while the body falls by some hundred lengths.
+// The height of the spring that models buoyancy, so large that its force is constant over a fall of some
+// hundred lengths.
 constexpr double anchor_height = 1e7;
 
 Entries body_entries(const FreeFall& fall) {
@@ -117,8 +117,8 @@ Entries step_entries(const FreeFall& fall) {
     return entries;
 }
 
-// Where the mesh resolves the boundary layer: the scheme and the walls by which the closures were held
-// against measurements (docs/studies/closures).
+// Returns the entries of a closure; where the mesh resolves the boundary layer, with the scheme and wall
+// treatment by which the closures were compared with measurements (docs/studies/closures).
 Entries closure_entries(Closure closure, bool resolves_boundary_layer) {
     const bool resolves_eddies = closure == Closure::k_omega_sst_ddes;
     Entries entries = {{"simulationType", closure == Closure::laminar ? "laminar"
@@ -134,7 +134,7 @@ Entries closure_entries(Closure closure, bool resolves_boundary_layer) {
     return entries;
 }
 
-// snappyHexMesh takes layers that are thinner than a hundredth of their width for bad cells, unless told.
+// Without these limits snappyHexMesh rejects layers that are thinner than a hundredth of their width.
 Entries layer_entries(const FlowMesh& mesh) {
     Entries entries = {{"layers", fmt::format("{}", mesh.layers)}};
     if (mesh.resolves_boundary_layer) {
@@ -170,20 +170,19 @@ Entries model_entries(const BakeQuality& quality, const BakeCase& entry) {
         {"startFrom", entry.start_from.empty() ? "none" : entry.start_from}};
     const bool is_started = !entry.start_from.empty();
     if (entry.closure == Closure::k_epsilon) {
-        // What is saved so and what it costs is in docs/studies/bake; of other models it is
-        // not known.
+        // docs/studies/bake has the savings and the errors; for other models they are not known.
         const int least = quality.least_iterations;
         entries.insert(entries.end(),
                        {{"roundIterations", "50"},
                         {"leastIterations", fmt::format("{}", is_started ? least / 2 : least)}});
     } else if (is_started) {
-        // A solution on a coarser mesh, or of a neighbouring model, is most of the way.
+        // A solution on a coarser mesh, or by a similar model, is a good start.
         entries.emplace_back("leastIterations", "100");
     }
     return entries;
 }
 
-// The ranks along x, y and z: as even as can be, the most along x.
+// Returns the numbers of ranks along x, y and z: as even as possible, the most along x.
 std::array<int, 3> ranks_along_axes(int ranks) {
     std::array<int, 3> best = {ranks, 1, 1};
     for (int z = 1; z * z * z <= ranks; ++z) {
@@ -217,7 +216,7 @@ std::string case_parameters(const std::string& template_text, const BakePlan& pl
     replace_values(text, mesh_entries_of(mesh_of(plan, entry.mesh)));
     const bool resolves_boundary_layer = mesh_of(plan, entry.mesh).resolves_boundary_layer;
     replace_values(text, closure_entries(entry.closure, resolves_boundary_layer));
-    // The wake itself swings then, and damping settled one of eleven such cases.
+    // The wake itself oscillates then; damping settled only one of eleven such cases.
     if (resolves_boundary_layer) replace_values(text, {{"acceptedError", "0.1"}});
     replace_values(text, model_entries(plan.quality, entry));
     replace_values(text, process_entries(plan.ranks));

@@ -1,11 +1,11 @@
 #!/usr/bin/env -S python3 -IB
-"""Notes that a free fall was solved, from the files that OpenFOAM left behind.
+"""Records that a free fall was solved, from the files that OpenFOAM wrote.
 
     check_fall.py FOLDER   writes FOLDER/provenance.json where the fall reached its end
 
-Else exit 1 with one line that says what is wrong and names the log; where the fall blew up in all attempts (not where
-the solver was only stopped) also FOLDER/failed.json with that reason. provenance.json is written last and whole, so
-that its existence means success. Whether the momenta balance is judged where the fall is read (converter/fall_record).
+Otherwise exits with 1 and one line with the error and the log's name; where the fall diverged in all attempts (not where the
+solver was only stopped) FOLDER/failed.json with that reason is written too. provenance.json is written last and whole, so that
+its existence means success. The momentum balance is checked where the fall is read (converter/falls/fall_record).
 """
 
 import os
@@ -13,21 +13,21 @@ import re
 import sys
 
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
-from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_error  # noqa: E402
 from case_files import Failure, CaseError, parameter, read, read_record, word, write_json  # noqa: E402
 
 
 def check_fall(folder):
     done = read_record(os.path.join(folder, "attempts.json"))
     if not done:
-        raise CaseError(stopping_fault(folder, os.path.join(folder, "log.Allrun")))
+        raise CaseError(stopping_error(folder, os.path.join(folder, "log.Allrun")))
     last = done["attempts"][-1]
     log = os.path.join(folder, "log.pimpleFoam")
     if done["verdict"] == "failed":
         tried = ", ".join(one["what"] for one in done["attempts"])
-        raise Failure(f"blew up in all attempts ({tried}); the last: {last['end']}; a smaller --step may hold")
+        raise Failure(f"diverged in all attempts ({tried}); the last: {last['end']}; a smaller --step may hold")
     if done["verdict"] is None:
-        raise CaseError(stopping_fault(folder, log))
+        raise CaseError(stopping_error(folder, log))
     text = read(log)
     parameters = read(os.path.join(folder, "parameters"))
     build = re.search(r"^Build\s*:\s*(.*)$", text, re.MULTILINE)

@@ -1,4 +1,4 @@
-"""Judges a mesh from the files that OpenFOAM left behind: checkMesh's verdict, and how much of the body is there."""
+"""Judges a mesh by the files that OpenFOAM wrote: checkMesh's verdict, and the share of the body's surface in it."""
 
 import math
 import os
@@ -11,10 +11,10 @@ PROGRAMS = ("surfaceFeatureExtract", "blockMesh", "snappyHexMesh", "topoSet", "c
 # The mesh's share of the body's surface. A thin sheet whose rim is lost has 0.87 to 0.90, a good mesh of a curved
 # thin shell 0.97; flat faces on a slender rod of eight cells around 0.95.
 GOOD_AREA = (0.92, 1.05)
-# Where no remedy gives a good mesh, the best of those is taken that miss no more than this.
+# Where no remedy gives a good mesh, the best one within these limits is used.
 USABLE_AREA = (0.85, 1.2)
-# Faults of a mesh on which a solver's result means nothing, as checkMesh words them.
-FATAL_FAULTS = ("zero or negative", "open cells", "Boundary openness", "incorrectly oriented", "Number of regions")
+# Errors of a mesh with which a solution is useless, as checkMesh words them.
+FATAL_ERRORS = ("zero or negative", "open cells", "Boundary openness", "incorrectly oriented", "Number of regions")
 
 
 def is_within(value, bounds):
@@ -22,10 +22,10 @@ def is_within(value, bounds):
 
 
 class Judgement:
-    """What is known of a mesh. `faults` is empty for a good one, `fatal` for one that can be solved on."""
+    """The quality of a mesh. `errors` is empty for a good one, `fatal` for one that can be used."""
 
     def __init__(self):
-        self.faults = []
+        self.errors = []
         self.fatal = []
         self.area = 0.0
         self.seconds = 0.0
@@ -33,16 +33,16 @@ class Judgement:
 
     @property
     def is_good(self):
-        return not self.faults and not self.fatal
+        return not self.errors and not self.fatal
 
     @property
     def misses_surface(self):
-        """Whether that is what is wrong; not where there is no mesh at all."""
+        """Whether a mesh exists that misses a part of the body's surface."""
         return bool(self.facts) and not is_within(self.area, GOOD_AREA)
 
     @property
     def verdict(self):
-        return "; ".join(self.fatal + [error for error in self.faults if error not in self.fatal]) or "ok"
+        return "; ".join(self.fatal + [error for error in self.errors if error not in self.fatal]) or "ok"
 
 
 def judge_cells(judgement, folder, text):
@@ -56,8 +56,8 @@ def judge_cells(judgement, folder, text):
         "mean_non_orthogonality": float(orthogonality.group(2)) if orthogonality else None,
         "body_area_over_true_area": judgement.area,
     }
-    judgement.faults += [line.strip(" *").rstrip(".") for line in text.splitlines() if line.startswith(" ***")]
-    judgement.fatal += [error for error in judgement.faults if any(word in error for word in FATAL_FAULTS)]
+    judgement.errors += [line.strip(" *").rstrip(".") for line in text.splitlines() if line.startswith(" ***")]
+    judgement.fatal += [error for error in judgement.errors if any(word in error for word in FATAL_ERRORS)]
     if judgement.facts["shell_cells"] == 0:
         judgement.fatal.append("no cell lies from 0.05 L to 0.25 L of the body")
 
@@ -67,7 +67,7 @@ def judge_surface(judgement):
     if not is_within(judgement.area, USABLE_AREA):
         judgement.fatal.append(share)
     elif judgement.misses_surface:
-        judgement.faults.append(share)
+        judgement.errors.append(share)
 
 
 def judge(folder):

@@ -1,12 +1,11 @@
 #!/usr/bin/env -S python3 -IB
-"""Judges a solution from the files that OpenFOAM left behind.
+"""Judges a solution by the files that OpenFOAM wrote.
 
     check_solution.py FOLDER   writes FOLDER/provenance.json where the solution holds
 
-Else exit 1 with one line that says what is wrong and names the log; where the flow diverged or did not converge
-(not where the solver was only stopped) also FOLDER/failed.json with that reason. provenance.json is written last
-and whole, so that its existence means success. The folder above holds plan.json, whose hash of the case's inputs
-it repeats.
+Otherwise exits with 1 and one line with the error and the log's name; where the flow diverged or did not converge (not where the
+solver was only stopped) FOLDER/failed.json with that reason is written too. provenance.json is written last and whole, so that
+its existence means success; it repeats the hash of the case's inputs in plan.json in the folder above.
 """
 
 import math
@@ -15,7 +14,7 @@ import re
 import sys
 
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
-from farm_script import input_hash, mesh_record, run_on_folder, stopping_fault  # noqa: E402
+from farm_script import input_hash, mesh_record, run_on_folder, stopping_error  # noqa: E402
 from case_files import Failure, CaseError, parameter, read, read_record, word, write_json  # noqa: E402
 from stationarity import AREA_UNIT, has_k_and_epsilon, whole_histories  # noqa: E402
 
@@ -31,7 +30,7 @@ def mean_and_deviation(rows, columns):
 
 
 def final_residuals(log_text, log):
-    """The initial residuals of the last iteration."""
+    """Returns the initial residuals of the last iteration by field."""
     last = log_text.rfind("\nTime = ")
     found = {}
     for field, value in re.findall(r"Solving for (\w+), Initial residual = (\S+?),", log_text[last:]):
@@ -51,7 +50,7 @@ def check_solution(folder):
     if rounds["verdict"] == "failed":
         raise Failure(f"{last['end']} (attempts: {', '.join(one['what'] for one in rounds['attempts'])})")
     if rounds["verdict"] is None:
-        raise CaseError(stopping_fault(folder, log))
+        raise CaseError(stopping_error(folder, log))
     text = read(log)
     start = rounds["averaging_start"]
     turbulent = has_k_and_epsilon(parameters)
@@ -81,7 +80,7 @@ def check_solution(folder):
         "verdict": rounds["verdict"],
         "attempts": rounds["attempts"],
         "iterations": last["iterations"],
-        # Half a step before its first, which no rounding misses.
+        # Half a step before the first, so that rounding does not matter.
         "averaging_start": (start - 0.5) * time_step if "time_step" in last else start,
         "averaged_iterations": len(forces),
         "final_residuals": final_residuals(text, log),

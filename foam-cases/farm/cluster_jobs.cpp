@@ -1,5 +1,3 @@
-#include "foam-cases/farm/cluster_jobs.hpp"
-
 #include <chrono>
 #include <fstream>
 #include <sstream>
@@ -19,12 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* note_of_jobs = ".cluster";
-// How long a cancelled job may take to end: Slurm kills it 30 s after it was asked to end.
+// The longest time for a cancelled job to end; Slurm kills it 30 s after the request.
 constexpr std::chrono::seconds longest_end(120);
-// How long a file that a node wrote may take to be seen here, through a network's file system (s).
+// The longest delay (s) until a file written by a node is visible here, by a network file system.
 constexpr const char* file_delay = "60";
 
-// The first word of a command, and what follows it.
+// Returns the first word of a command, and the rest.
 std::pair<std::string, std::string> first_word(const std::string& command) {
     std::istringstream stream(command);
     std::string word;
@@ -40,7 +38,7 @@ std::string shell_quoted(const std::string& text) {
     return quoted + "'";
 }
 
-// What a command of Slurm prints; throws Error with its last line where it fails.
+// Returns the output of a command of Slurm; throws Error with its last line where it fails.
 std::string output_of(const std::vector<std::string>& words) {
     const TemporaryFolder temporary;
     const fs::path output = temporary.path() / "output";

@@ -66,7 +66,8 @@ int exit_status(int status) {
     ::_exit(cannot_start);
 }
 
-// The leader of the group. Nobody writes into the pipe: it ends when the program that started it has ended.
+// Becomes the leader of the group. Nothing is written into the pipe: it closes when the starting program
+// ends.
 [[noreturn]] void become_guardian(int pipe_end, char* const* words, const char* output, const char* folder) {
     ::setpgid(0, 0);
     std::signal(SIGINT, SIG_IGN);

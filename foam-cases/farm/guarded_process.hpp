@@ -8,20 +8,21 @@
 
 namespace samara {
 
-/// Runs a program with the given words, and all that it starts, in a process group that never outlives this
-/// program: if this program ends in any way, even by SIGKILL, the whole group is killed. Its output goes to
-/// the file `output`, its working folder is `folder`. `tick` is called ten times a second meanwhile.
+/// Runs a program with the given words, and its child processes, in a process group that never outlives this
+/// program: where this program ends, even by SIGKILL, the whole group is killed. Its output goes to the file
+/// `output`, its working folder is `folder`. `tick` is called ten times a second meanwhile.
 ///
-/// Returns the exit status (128 + the signal where one ended it), or nothing where the user interrupted this
-/// program (SIGINT, SIGTERM): then the group has been killed. Throws Error where it cannot be started.
+/// Returns the exit status (128 + the number of the signal that ended it), or nothing where the user
+/// interrupted this program (SIGINT, SIGTERM): then the group has been killed. Throws Error where it cannot
+/// be started.
 std::optional<int> run_guarded(const std::vector<std::string>& words, const std::filesystem::path& output,
                                const std::filesystem::path& folder, const std::function<void()>& tick);
 
-/// Holds a folder for one program at a time, by an advisory lock on the file .lock in it; the lock ends with
-/// the object and with the program, however it ends.
+/// Locks a folder for one program at a time, by an advisory lock on the file .lock in it, which ends with the
+/// object or the program.
 class FolderLock {
   public:
-    /// Makes the folder where it is not there. Throws Error where another program holds it.
+    /// Creates the folder where it does not exist. Throws Error where another program has locked it.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

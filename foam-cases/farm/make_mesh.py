@@ -1,15 +1,14 @@
 #!/usr/bin/env -S python3 -IB
-"""Makes the mesh of a case, and tries remedies in a stated order until it is good.
+"""Makes the mesh of a case, and tries remedies in a fixed order until it is good.
 
-    make_mesh.py FOLDER   runs FOLDER/Allrun mesh and writes FOLDER/mesh.json where the mesh can be solved on
+    make_mesh.py FOLDER   runs FOLDER/Allrun mesh and writes FOLDER/mesh.json where the mesh can be used
 
-A mesh is good where checkMesh finds no error and the body's whole surface is there (check_mesh.py). Else the
-remedies below are tried, each in place of the one before, by a file `remedy` that `parameters` includes at its end;
-mesh.json says which were tried, and what each gave. Where none gives a good mesh, the one with the fewest faults is
-taken, if it can be solved on at all; its verdict says what is wrong with it.
+A mesh is good where checkMesh finds no error and contains the body's whole surface (check_mesh.py). Otherwise the remedies
+below are tried, each in place of the one before, by a file `remedy` that `parameters` includes at its end; mesh.json lists
+them and their results. Where none gives a good mesh, the usable one with the fewest errors is taken; its verdict names them.
 
-Else exit 1 with one line that says what is wrong; where the body is at error (not where a program was only stopped)
-also FOLDER/failed.json with that reason. mesh.json is written last and whole, so that its existence means success.
+Otherwise exits with 1 and one line with the error; where the body is the cause (not where a program was only stopped)
+FOLDER/failed.json with that reason is written too. mesh.json is written last and whole, so that its existence means success.
 """
 
 import os
@@ -23,7 +22,7 @@ from farm_script import input_hash, run_on_folder  # noqa: E402
 from case_files import Failure, CaseError, parameter, read, write_entries, write_json  # noqa: E402
 from check_mesh import PROGRAMS, judge  # noqa: E402
 
-# What `Allrun mesh` makes.
+# The products of `Allrun mesh`.
 PRODUCTS = ("constant/polyMesh", "constant/extendedFeatureEdgeMesh", "constant/triSurface/body.eMesh")
 
 
@@ -40,12 +39,12 @@ def no_layers(plan):
 
 
 def finer_background(plan):
-    """Cells smaller by a tenth, which cut the body elsewhere."""
+    """Cells smaller by a tenth, which intersect the body at other places."""
     return {"backgroundCells": round(1.1 * plan["backgroundCells"])}
 
 
 def more_levels(plan, count):
-    """Smaller cells along the surface, two deep at each level, so that snappyHexMesh finds what it missed."""
+    """Smaller cells along the surface, two deep at each level, so that snappyHexMesh resolves what it missed."""
     cell = 2 * plan["boxHalfWidth"] / plan["backgroundCells"]
     finest = plan["surfaceLevel"] + count
     shells = [f"({2 * cell / 2 ** level:.6g} {level})" for level in range(finest, plan["surfaceLevel"], -1)]
@@ -61,7 +60,7 @@ def two_more_levels(plan):
 
 
 # In the order in which they are tried: those that cost the fewest cells and the least accuracy first. For meshes that
-# miss a part of the surface, and for those with other faults.
+# miss a part of the surface, and for those with other errors.
 REMEDIES_OF_SURFACE = {
     "finer background": finer_background,
     "one more surface level": one_more_level,
@@ -77,7 +76,7 @@ REMEDIES_OF_CELLS = {
 
 
 def planned(folder):
-    """The entries of `parameters` that remedies start from."""
+    """Returns the entries of `parameters` that remedies change."""
     text = read(os.path.join(folder, "parameters"))
     plan = {name: int(parameter(text, name)) for name in ("backgroundCells", "surfaceLevel", "layers")}
     plan["boxHalfWidth"] = parameter(text, "boxHalfWidth")
@@ -106,7 +105,7 @@ def attempt(folder, remedy, entries):
     if entries:
         write_entries(os.path.join(folder, "remedy"), f"In place of entries of parameters: {remedy} (make_mesh.py)",
                       entries)
-    # Its logs say what went wrong; what it prints is of use where there are none.
+    # Its logs hold the errors; its output is needed only where there are no logs.
     result = subprocess.run([os.path.join(folder, "Allrun"), "mesh"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             text=True, check=False)
     if not os.path.exists(os.path.join(folder, "log." + PROGRAMS[0])):
@@ -115,7 +114,7 @@ def attempt(folder, remedy, entries):
 
 
 def attempts_until_good(folder):
-    """(remedy, entries, judgement) of each attempt; the last is of a good mesh, where there is one."""
+    """Returns (remedy, entries, judgement) of each attempt; the last one is good, where there is a good mesh."""
     plan = planned(folder)
     attempts = [("as planned", {}, attempt(folder, "as planned", {}))]
     remedies = REMEDIES_OF_SURFACE if attempts[0][2].misses_surface else REMEDIES_OF_CELLS
@@ -128,9 +127,9 @@ def attempts_until_good(folder):
 
 
 def badness(tried):
-    """Orders meshes from the best to the worst; the first of equals counts."""
+    """The key by which meshes are ordered from the best to the worst; the first of equals is used."""
     judgement = tried[2]
-    return (len(judgement.fatal), len(judgement.faults), round(abs(judgement.area - 1.0), 2))
+    return (len(judgement.fatal), len(judgement.errors), round(abs(judgement.area - 1.0), 2))
 
 
 def make_mesh(folder):

@@ -1,4 +1,4 @@
-"""The area of a patch, from the files of a mesh of OpenFOAM, ASCII or binary."""
+"""Computes the area of a patch from the files of an OpenFOAM mesh, ASCII or binary."""
 
 import array
 import math
@@ -13,7 +13,7 @@ SCALARS = {"32": "f", "64": "d"}
 
 
 def read_file(path):
-    """The header of a mesh file, as text, and the bytes after it."""
+    """Returns the header of a mesh file, as text, and the bytes after it."""
     try:
         with open(path, "rb") as file:
             content = file.read()
@@ -29,15 +29,15 @@ def is_binary(header):
     return re.search(r"format\s+binary", header) is not None
 
 
-def kind(header, name, kinds):
-    """The type code of array for labels or scalars, as the header's arch says; 32-bit labels and 64-bit scalars
-    where it says nothing."""
+def type_code(header, name, codes):
+    """Returns the type code of array for labels or scalars by the header's entry arch; without one those of 32-bit labels
+    and 64-bit scalars."""
     width = re.search(rf"{name}=(\d+)", header)
-    return kinds[width.group(1) if width else {"label": "32", "scalar": "64"}[name]]
+    return codes[width.group(1) if width else {"label": "32", "scalar": "64"}[name]]
 
 
 def binary_list(path, content, start, code, components=1):
-    """The next list of a binary file from `start` on, `components` values to an entry; and where it ends."""
+    """Returns the next list of a binary file from `start` on, with `components` values per entry, and where it ends."""
     opening = re.compile(rb"(\d+)\s*\(").search(content, start)
     if not opening:
         raise CaseError(f"{path}: is cut short; make the mesh again")
@@ -52,7 +52,7 @@ def binary_list(path, content, start, code, components=1):
 
 
 def ascii_entries(path, content):
-    """The entries of a list in brackets, a line each, as lists of numbers."""
+    """Returns the entries of a list in brackets, one per line, as lists of numbers."""
     parts = re.split(r"^\d+\s*^\(", content.decode(errors="replace"), maxsplit=1, flags=re.MULTILINE)
     if len(parts) != 2:
         raise CaseError(f"{path}: holds no list; make the mesh again")
@@ -63,16 +63,16 @@ def read_points(path):
     header, content = read_file(path)
     if not is_binary(header):
         return ascii_entries(path, content)
-    flat, _ = binary_list(path, content, 0, kind(header, "scalar", SCALARS), 3)
+    flat, _ = binary_list(path, content, 0, type_code(header, "scalar", SCALARS), 3)
     return [flat[i:i + 3] for i in range(0, len(flat), 3)]
 
 
 def read_faces(path, first, count):
-    """The corners of `count` faces from the `first` on, as indices of points."""
+    """Returns the corners of `count` faces from `first` on, as indices of points."""
     header, content = read_file(path)
     if not is_binary(header):
         return [[int(corner) for corner in face[1:]] for face in ascii_entries(path, content)[first:first + count]]
-    code = kind(header, "label", LABELS)
+    code = type_code(header, "label", LABELS)
     starts, end = binary_list(path, content, 0, code)
     corners, _ = binary_list(path, content, end, code)
     return [corners[starts[face]:starts[face + 1]] for face in range(first, first + count)]
@@ -88,7 +88,7 @@ def polygon_area(corners):
 
 
 def patch_area(mesh_folder, patch):
-    """The area of a patch of constant/polyMesh; 0 where there is none of that name."""
+    """Returns the area of a patch of constant/polyMesh; 0 where there is none of that name."""
     entry = re.search(rf"^\s*{patch}\s*\{{(.*?)\}}", read(os.path.join(mesh_folder, "boundary")),
                       re.MULTILINE | re.DOTALL)
     if not entry:

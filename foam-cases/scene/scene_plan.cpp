@@ -12,14 +12,14 @@
 namespace samara {
 namespace {
 
-// Chosen: the rounds that follow make up for what the first lacks.
-constexpr std::size_t first_directions = 3;  // beside the anchors
+// Chosen values: further rounds add what the first lacks.
+constexpr std::size_t first_directions = 3;  // in addition to the anchors
 constexpr std::size_t first_directions_of_arc = 1;
-constexpr double far_in_reynolds_number = 2.0;  // beyond that ratio coefficients may differ
-constexpr int most_falls_more = 2;              // times the goal's
-constexpr std::size_t further_directions = 3;   // with cases at another Reynolds number
+constexpr double far_in_reynolds_number = 2.0;  // beyond this ratio coefficients may differ
+constexpr int most_falls_more = 2;              // relative to the goal's number
+constexpr std::size_t further_directions = 3;   // number of directions with cases at another Reynolds number
 
-/// The quantile of the logarithm of the visits' Reynolds numbers by the squared loads met there.
+/// Returns the quantile of the visits' Reynolds numbers, weighted by the squared loads there.
 double reynolds_quantile(std::vector<FlowVisit> visits, double share) {
     std::ranges::sort(visits, {}, &FlowVisit::reynolds_number);
     double all = 0.0;
@@ -43,7 +43,7 @@ double mean_reynolds_number(const std::vector<FlowVisit>& visits) {
     return std::exp(sum / all);
 }
 
-/// A Reynolds number that counts and is far from the main one; 0 where there is none.
+/// Returns a relevant Reynolds number far from the main one; 0 where there is none.
 double far_reynolds_number(const std::vector<FlowVisit>& visits, double main) {
     const double low = reynolds_quantile(visits, 0.05);
     const double high = reynolds_quantile(visits, 0.95);
@@ -61,7 +61,7 @@ void add_directions(const std::vector<std::size_t>& more, ScenePlan& plan) {
     }
 }
 
-/// The candidates that any table needs: without them its interpolation is extrapolated freely.
+/// Returns the candidates that any table needs, since it would extrapolate without them.
 std::vector<std::size_t> anchors(const Symmetry& symmetry, const Candidates& candidates) {
     std::vector<std::size_t> found;
     for (const Vector3d& direction : required_directions(symmetry, 1)) {
@@ -74,7 +74,7 @@ std::vector<std::size_t> anchors(const Symmetry& symmetry, const Candidates& can
     return found;
 }
 
-/// The candidates that are not chosen, of so many.
+/// Returns those of `count` candidates that are not chosen.
 std::vector<std::size_t> without(const std::vector<std::size_t>& chosen, std::size_t count) {
     std::vector<std::size_t> others;
     for (std::size_t index = 0; index < count; ++index) {
@@ -83,7 +83,7 @@ std::vector<std::size_t> without(const std::vector<std::size_t>& chosen, std::si
     return others;
 }
 
-/// The chosen candidates, those first without which most would be uncertain.
+/// Returns the chosen candidates, first those that lower the uncertainty most.
 std::vector<std::size_t> by_weight(const std::vector<WeightedDirection>& weights, const Symmetry& symmetry,
                                    const ScenePlan& plan) {
     std::vector<std::pair<double, std::size_t>> loads;
@@ -102,7 +102,7 @@ std::vector<std::size_t> by_weight(const std::vector<WeightedDirection>& weights
     return order;
 }
 
-/// Cases at the Reynolds number in the first `count` of the directions.
+/// Adds cases at the Reynolds number in the first `count` of the directions.
 void add_reynolds_number(double reynolds_number, std::size_t count, const std::vector<std::size_t>& order,
                          ScenePlan& plan) {
     for (std::size_t i = 0; i < std::min(count, order.size()); ++i) {
@@ -133,8 +133,8 @@ UncertainTables uncertain_tables(const Conversion& conversion, const ScenePlan& 
     return uncertain;
 }
 
-/// The largest change of the force's coefficient from the main Reynolds number to another along the visits
-/// there, over the force: what the table would be wrong by without it.
+/// Returns the rms change of the force coefficient from the main Reynolds number to those of the visits,
+/// relative to the force: the error of a table without them.
 double change_with_reynolds_number(const LoadTables& tables, const std::vector<FlowVisit>& visits,
                                    double main) {
     double sum = 0.0;
@@ -163,8 +163,8 @@ bool adds_reynolds_numbers(const SceneGoal& goal, const LoadTables& tables, cons
     return plan.cases.cases.size() > before;
 }
 
-/// How many directions the next round adds: a sixth of what there is, up to half where the error is far
-/// beyond the tolerance; two at least.
+/// Returns the number of directions that the next round adds: a sixth of those solved, up to half where the
+/// error is far beyond the tolerance; at least two.
 std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double worst) {
     if (symmetry.type == Symmetry::Type::axial) return 1;
     const double share = std::clamp(worst, 1.0, 3.0) / 6.0;
@@ -172,17 +172,17 @@ std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double w
         2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
 }
 
-/// Throws where the body meets no load within the scene, which so says nothing of what it needs.
+/// Throws Error where the body has no load within the scene, which then determines no cases.
 void require_loads(const SceneGoal& goal, const SampledFalls& simulation) {
     const Scene& scene = goal.scene;
     const SceneBody& body = scene.bodies[goal.body];
     const double mean = mean_reynolds_number(simulation.visits);
     if (scene.step <= scene.duration - body.start && mean > 0.0 && std::isfinite(mean)) return;
-    throw Error(
-        fmt::format("{}: the body '{}' does not move within the scene, which so says nothing of what it "
-                    "needs: it starts at {:.6g} s, and the scene ends at {:.6g} s, in steps of {:.6g} s; let "
-                    "the scene last longer, or take shorter steps",
-                    scene.file.string(), body.name, body.start, scene.duration, scene.step));
+    throw Error(fmt::format(
+        "{}: the body '{}' does not move within the scene, so that no cases can be planned "
+        "for it: it starts at {:.6g} s, and the scene ends at {:.6g} s, in steps of {:.6g} s; let "
+        "the scene last longer, or take shorter steps",
+        scene.file.string(), body.name, body.start, scene.duration, scene.step));
 }
 
 }  // namespace
@@ -197,7 +197,7 @@ ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality&
     plan.cases.inflow = inflow;
     plan.cases.covers_scene = true;
     plan.cases.solved_subdivisions = plan.candidates.subdivisions;
-    // In multiples, so that the map's nodes hold the candidates.
+    // A multiple, so that the map's nodes include the candidates.
     const int solved = plan.candidates.subdivisions;
     plan.cases.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
     plan.cases.main_reynolds_number = rounded_reynolds_number(mean_reynolds_number(simulation.visits));
@@ -230,9 +230,9 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     round.estimated_cpu_seconds = plan.cases.cpu_seconds;
     round.cpu_seconds = cpu_seconds;
     const UncertainTables uncertain = uncertain_tables(conversion, plan);
-    // Falls that differ much need more of them to see what the tables leave uncertain.
+    // Where falls differ much, more of them are needed to estimate the uncertainty by the tables.
     for (int falls = goal.falls; falls <= most_falls_more * goal.falls; falls *= 2) {
-        round.simulation = fly_for_bake(goal.scene, goal.body, conversion.body, falls);
+        round.simulation = simulate_for_bake(goal.scene, goal.body, conversion.body, falls);
         round.error = motion_error(goal.scene, goal.body, conversion.body, uncertain, round.simulation, falls,
                                    goal.draws);
         if (round.error.worst_chance(goal.tolerance) <= 0.5) break;
@@ -243,10 +243,10 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     const double worst = round.error.worst(goal.tolerance);
     const bool good = worst <= 1.0;
     plan.rounds.push_back(round);
-    // Where it strays to is judged with the rest, and planned from now on.
+    // Directions outside the plan are judged with the rest, and planned from now on.
     if (symmetry.type != Symmetry::Type::spherical) merge(plan.region, visited_region(visits, symmetry));
     if (plan.rounds.size() >= static_cast<std::size_t>(goal.most_rounds)) {
-        plan.stopped_because = fmt::format("{} rounds are the most there may be", goal.most_rounds);
+        plan.stopped_because = fmt::format("the limit of {} rounds is reached", goal.most_rounds);
     }
 
     ScenePlan next = plan;

@@ -12,59 +12,62 @@
 
 namespace samara {
 
-/// What a bake for one body of a scene aims at.
+/// The goal of a bake for one body of a scene.
 struct SceneGoal {
     Scene scene;
-    std::size_t body = 0;    ///< of the scene
-    double tolerance = 0.1;  ///< relative, of the descent speed; the others' in the catalogue's proportions
-    std::optional<double> budget;  ///< CPU seconds, estimated; none: as many as the tolerance takes
+    std::size_t body = 0;  ///< index in the scene
+    double tolerance =
+        0.1;  ///< relative, of the descent speed; that of other metrics is in proportion by the catalogue
+    std::optional<double> budget;  ///< estimated CPU seconds; none: no limit
     int most_rounds = 8;
-    bool whole_grid = false;  ///< every candidate at once
+    bool whole_grid = false;  ///< solves every candidate in the first round
     int falls = 16;           ///< in each ensemble
-    int draws = 12;           ///< of the tables, for their error
+    int draws = 12;           ///< number of random tables, for their error
 };
 
-/// What is known after a round of cases was solved.
+/// The state after a round of cases.
 struct PlanRound {
     std::size_t directions = 0;          ///< solved so far
-    std::size_t cases = 0;               ///< so far, of all meshes and Reynolds numbers
-    double estimated_cpu_seconds = 0.0;  ///< of these and the meshes
-    double cpu_seconds = 0.0;            ///< that they took
-    SampledFalls simulation;             ///< with the tables of this round; its visits are dropped
+    std::size_t cases = 0;               ///< number so far, of all meshes and Reynolds numbers
+    double estimated_cpu_seconds = 0.0;  ///< of these cases and the meshes
+    double cpu_seconds = 0.0;            ///< used by them
+    SampledFalls simulation;             ///< falls with the tables of this round, without visits
     MotionError error;
-    double strayed = 0.0;  ///< share of the frames outside of the planned region
+    double strayed = 0.0;  ///< share of the frames outside the planned region
 };
 
-/// The plan for a body of a scene as it grows, round by round. What is chosen depends on the scene, the body
-/// and the solved loads alone: not on the order in which cases finish.
+/// The plan for a body of a scene, extended in rounds. The choices depend only on the scene, the body and the
+/// solved loads, not on the order in which cases finish.
 struct ScenePlan {
     Candidates candidates;
-    std::vector<std::size_t> chosen;  ///< of the candidates, in the order in which they were added
-    PlannedRegion region;             ///< the directions that the planning flights visited
+    std::vector<std::size_t> chosen;  ///< indices of candidates, in the order in which they were added
+    PlannedRegion region;             ///< the directions that occurred in the planning simulations
     BakePlan cases;
     std::vector<PlanRound> rounds;
-    std::string stopped_because;      ///< empty while it goes on
+    std::string stopped_because;      ///< empty while rounds follow
     bool reynolds_collapsed = false;  ///< the check at another Reynolds number found the same coefficients
 };
 
-/// The first list of cases: at the Reynolds number at which the visits have their mean load, in the
-/// directions that every table needs and the few that leave least uncertain where the visits are, with one
-/// more case at a Reynolds number far from it where they spread over a factor of more than two. `flight`: of
-/// the body without tables. Throws Error where it does not move in it.
+/// Plans the first cases: at the Reynolds number of the visits' mean load, in the directions that every table
+/// needs and the few that lower the uncertainty at the visits most, with one more case at a far Reynolds
+/// number where the visits spread over a factor of more than two. `simulation`: falls of the body without
+/// tables. Throws Error where the body does not move in it.
 ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
                      const Inflow& inflow, const SampledFalls& simulation);
 
-/// Judges a round: flies the baked body, works out what its tables leave uncertain, and either says why to
-/// stop or adds the directions (and Reynolds numbers) that would lower the uncertainty most.
+/// Judges a round: simulates the baked body, estimates the uncertainty by its tables, and either sets the
+/// reason to stop or adds the directions (and Reynolds numbers) that would lower the uncertainty most.
 void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu_seconds, ScenePlan& plan);
 
-/// Directions, cases and estimated CPU seconds of the whole grid that the plan's candidates are from, all of
-/// its nodes solved at the plan's main Reynolds number, with the body's symmetry or without.
+/// The cost of the whole grid of the plan's candidates, with all nodes solved at the plan's main Reynolds
+/// number.
 struct GridCost {
     std::size_t directions = 0;
     std::size_t cases = 0;
     double cpu_seconds = 0.0;
 };
+
+/// Returns the cost of the whole grid, with or without the body's symmetry.
 GridCost whole_grid(const ScenePlan& plan, bool with_symmetry);
 
 }  // namespace samara

@@ -14,7 +14,7 @@
 namespace samara {
 namespace {
 
-/// The uncertainty that the tables leave in the measures, as words: "descent speed 3 %, ...".
+/// Returns the uncertainty of the metrics by the tables as text: "descent speed 3 %, ...".
 std::string errors_as_text(const MotionError& error) {
     std::string text;
     for (const Metric metric : baked_metrics) {
@@ -39,7 +39,7 @@ nlohmann::json measures_as_json(const PlanRound& round, double tolerance) {
     return json;
 }
 
-/// The candidate of which an image is nearest to a direction.
+/// Returns the candidate with the image that is nearest to a direction.
 std::size_t nearest_candidate(const Vector3d& direction, const std::vector<Vector3d>& candidates,
                               const std::vector<Matrix3d>& elements, const Symmetry& symmetry) {
     const Vector3d axis = symmetry.axes.transpose() * symmetry.axis;
@@ -51,7 +51,7 @@ std::size_t nearest_candidate(const Vector3d& direction, const std::vector<Vecto
             const double closeness = symmetry.type == Symmetry::Type::axial
                                          ? -std::abs(image.dot(axis) - direction.dot(axis))
                                          : image.dot(direction);
-            // Rounding is not to decide between equals.
+            // Rounding must not decide between equals.
             if (closeness > closest + 1e-9) {
                 closest = closeness;
                 nearest = i;
@@ -108,7 +108,7 @@ std::string round_as_line(const SceneGoal& goal, const ScenePlan& plan) {
     return fmt::format(
         "round {}: {} directions, {:.0f} CPU s; the tables leave uncertain: {}{}; {}", plan.rounds.size(),
         round.directions, round.cpu_seconds, errors.empty() ? "nothing" : errors,
-        round.strayed > 0.0 ? fmt::format("; {:.0f} % of the time outside of the plan", 100.0 * round.strayed)
+        round.strayed > 0.0 ? fmt::format("; {:.0f} % of the time outside the plan", 100.0 * round.strayed)
                             : "",
         plan.stopped_because.empty()
             ? fmt::format("goes on, for {:.0f} % of descent speed are asked", 100.0 * goal.tolerance)

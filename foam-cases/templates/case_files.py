@@ -1,5 +1,5 @@
-"""The files of a case, and how a error is said: what the scripts in a case and the farm's scripts share. The writer of
-cases puts a copy into each, so that a case can be run by itself."""
+"""Reading and writing of a case's files, and its errors, for the scripts in a case and the farm's scripts. A copy is put into
+each case, so that it can be run by itself."""
 
 import glob
 import hashlib
@@ -15,12 +15,12 @@ MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary")
 
 
 class CaseError(Exception):
-    """What is wrong, in one line for the user."""
+    """An error, as one line for the user."""
 
 
 class Failure(CaseError):
-    """A error of the case itself, which would come again on the same inputs: the case is to be left out. Any
-    other error (a program that was killed, a full disk) says nothing against the case."""
+    """An error by the case itself, which would recur with the same inputs, so that the case is left out. Other errors (a killed
+    program, a full disk) are not by the case."""
 
 
 def read(path):
@@ -32,12 +32,12 @@ def read(path):
 
 
 def say(line, file=None):
-    """Prints the line, whatever bytes the names of folders in it are made of."""
+    """Prints a line, which may contain names of folders that are no valid UTF-8."""
     print(str(line).encode(errors="surrogateescape").decode(errors="replace"), file=file)
 
 
 def write_json(path, content):
-    """Writes the file whole, or not at all."""
+    """Writes the file completely, or not at all."""
     temporary = path + ".part"
     with open(temporary, "w", encoding="utf-8", errors="replace") as file:
         json.dump(content, file, indent=2, allow_nan=False, ensure_ascii=False)
@@ -48,7 +48,7 @@ def write_json(path, content):
 
 
 def read_record(path):
-    """What write_json wrote; empty where there is no such file, or it is damaged."""
+    """Reads the output of write_json; returns {} where the file is missing or damaged."""
     try:
         with open(path) as file:
             return json.load(file)
@@ -57,8 +57,8 @@ def read_record(path):
 
 
 def are_attempts(record, known, required, optional=()):
-    """Whether the record lists attempts as the case's script notes them: each of a known kind, with the `required`
-    numbers and perhaps the `optional` ones."""
+    """Whether the record holds a valid list of attempts: each of a known name, with the `required` numbers and perhaps the
+    `optional` ones."""
     try:
         return bool(record["attempts"]) and all(
             attempt["what"] in known and all(math.isfinite(float(attempt[name])) for name in required)
@@ -69,19 +69,19 @@ def are_attempts(record, known, required, optional=()):
 
 
 def write_entries(path, remark, entries):
-    """Writes entries of OpenFOAM's dictionaries, which count in place of earlier ones where the file is included."""
+    """Writes entries of an OpenFOAM dictionary, which replace earlier ones where the file is included."""
     with open(path, "w") as file:
         file.write(f"// {remark}\n")
         file.writelines(f"{name} {value};\n" for name, value in entries.items())
 
 
 def numbers(text):
-    """All the numbers in the text, `nan` and `inf` among them."""
+    """Returns all numbers in the text, including `nan` and `inf`."""
     return [float(word) for word in NUMBER.findall(text)]
 
 
 def word(text, name):
-    """The text of an entry of a case's file `parameters`."""
+    """Returns the text of an entry of a case's file `parameters`."""
     match = re.search(rf"^{name}\s+([^;]+);", text, re.MULTILINE)
     if not match:
         raise CaseError(f"parameters: has no entry {name}; restore it")
@@ -89,20 +89,20 @@ def word(text, name):
 
 
 def parameter(text, name):
-    """The number, or the numbers in brackets, of an entry."""
+    """Returns the number, or the list of numbers in brackets, of an entry."""
     value = word(text, name)
     return numbers(value) if value.startswith("(") else numbers(value)[0]
 
 
 def time_folders(folder):
-    """The paths of the folders in it that are named by a time, by their times, which ascend."""
+    """Returns the paths of the subfolders that are named by a time, by ascending time."""
     names = os.listdir(folder) if os.path.isdir(folder) else []
     paths = {float(name): os.path.join(folder, name) for name in names if TIME.fullmatch(name)}
     return {time: paths[time] for time in sorted(paths) if os.path.isdir(paths[time])}
 
 
 def rows_of(path):
-    """The rows of numbers in a file of a history; a last line that was cut short is none."""
+    """Returns the rows of numbers in a file of a history, without an incomplete last line."""
     lines = read(path).split("\n")[:-1]
     try:
         rows = [numbers(line) for line in lines if line and not line.startswith("#")]
@@ -114,7 +114,7 @@ def rows_of(path):
 
 
 def history(folder, name, file):
-    """The rows [time, values...] of a function object over all runs; a later run counts where two overlap."""
+    """Returns the rows [time, values...] of a function object over all runs; where two overlap, the later run is used."""
     rows = []
     for start, path in time_folders(os.path.join(folder, "postProcessing", name)).items():
         rows = [row for row in rows if row[0] <= start] + rows_of(os.path.join(path, file))
@@ -122,7 +122,7 @@ def history(folder, name, file):
 
 
 def hash_of_inputs(more=()):
-    """Of all that the solution of the case in this folder depends on: its own files, its mesh, and the files `more`."""
+    """Returns the hash of all inputs of the case in this folder: its own files, its mesh, and the files `more`."""
     own = ["parameters"] + [path for pattern in ("0.orig/*", "system/*", "constant/*") for path in glob.glob(pattern)]
     mesh = [os.path.join("constant/polyMesh", name) for name in MESH_FILES]
     total = hashlib.sha256()
@@ -134,12 +134,12 @@ def hash_of_inputs(more=()):
 
 
 def last_run(log):
-    """What the last run of a program wrote into the log."""
+    """Returns the part of the log by the last run of a program."""
     return re.split(r"^Build\s*:", read(log), flags=re.MULTILINE)[-1]
 
 
 def other_version(log):
-    """In words for a error, by which OpenFOAM the log's last run was, where the cases are not tested with it."""
+    """Returns a remark for an error where the log's last run was by an OpenFOAM with which the cases are not tested."""
     builds = re.findall(r"^Build\s*:\s*(.*?)\s*$", read(log), re.MULTILINE)
     if not builds or TESTED_VERSION in builds[-1]:
         return ""
@@ -147,15 +147,15 @@ def other_version(log):
 
 
 def could_not_read_state(log):
-    """Whether the solver's last run could not read what it was to go on from, as where the disk had been full."""
+    """Whether the solver's last run could not read the state from which it was to continue, as after a full disk."""
     run = last_run(log)
     return "FOAM FATAL IO ERROR" in run and not re.search(r"^Time = ", run, re.MULTILINE)
 
 
 def breakdown(log, program, unit=None):
-    """The exception for a program whose last run in the log did not reach its end: Failure where the case is at
-    error, CaseError where the program was stopped or could not read a file. `unit`: of a solver's steps ("iteration"),
-    before the first of which nothing says that its case is at error."""
+    """Returns the exception for a program whose last run in the log did not reach its end: Failure where the case is the cause,
+    CaseError where the program was stopped or could not read a file. `unit`: the word for a solver's steps ("iteration"); before
+    the first step an error is not attributed to the case."""
     text = last_run(log)
     times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
     where = f" at {unit} {times[-1]}" if unit and times else ""
@@ -163,10 +163,10 @@ def breakdown(log, program, unit=None):
     fatal = re.search(r"FOAM FATAL ([A-Z ]*ERROR)[^\n]*\n(?:\s*\n)*([^\n]*)", text)
     if fatal:
         of_case = "IO" not in fatal.group(1) and (times or not unit)
-        # Of a folder whose name OpenFOAM does not take, Allrun tells it this one.
+        # Allrun passes this path in place of a folder whose name OpenFOAM does not accept.
         said = fatal.group(2).strip().rstrip(".").replace("/proc/self/cwd", os.path.dirname(log) or ".")
         return (Failure if of_case else CaseError)(f"{program} failed{where}: {said}{other_version(log)}{see}")
-    # The signal's handler, in the stack that OpenFOAM prints; its banner speaks of floating point exceptions too.
+    # The signal's handler in the stack trace; OpenFOAM's banner mentions floating point exceptions too.
     if "sigFpe::sigHandler" in text:
         return Failure(f"{program} diverged (floating point exception){where}{see}")
     return CaseError(f"{program} was stopped{where}, before its end{see}")

@@ -1,5 +1,3 @@
-#include "meshes/checks/joined_parts.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -36,12 +34,12 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
 using Quick = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr double push = 2.0;  // over the welding tolerance: past what counts as touching
+constexpr double push = 2.0;  // in units of the welding tolerance: farther than what counts as touching
 
-// What the numbers of a union-find structure stand for are one where `root` is the same.
-class Classes {
+// Union-find structure (disjoint sets): two numbers are of one set where their `root` is the same.
+class DisjointSets {
   public:
-    explicit Classes(std::size_t count) : parent_(count) {
+    explicit DisjointSets(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), std::size_t{0});
     }
     std::size_t root(std::size_t item) {
@@ -56,9 +54,9 @@ class Classes {
     std::vector<std::size_t> parent_;
 };
 
-// Pairs of faces that meet at an edge, as the parts that they are of have it: at edges of more than two,
-// those that stand near each other in the file, since it holds one part after the other. None where an edge
-// has not as many faces that run along it one way as the other.
+// Pairs of faces that share an edge within one part. At edges of more than two faces those that stand next to
+// each other in the file are paired, since it holds one part after the other. Nothing where an edge does not
+// have as many faces in one direction as in the other.
 std::optional<std::vector<std::pair<EdgeUse, EdgeUse>>> mates(const Surface& surface) {
     const std::vector<EdgeUse> uses = edge_uses(surface);
     std::vector<std::pair<EdgeUse, EdgeUse>> pairs;
@@ -72,12 +70,12 @@ std::optional<std::vector<std::pair<EdgeUse, EdgeUse>>> mates(const Surface& sur
     return pairs;
 }
 
-// The closed parts, each with vertices of its own; none where the surface is not closed.
+// Returns the closed parts, each with its own vertices; none where the surface is not closed.
 std::vector<Surface> parts_of(const Surface& surface) {
     const auto pairs = mates(surface);
     if (!pairs) return {};
-    Classes faces(surface.triangle_count());
-    Classes corners(3 * surface.triangle_count());
+    DisjointSets faces(surface.triangle_count());
+    DisjointSets corners(3 * surface.triangle_count());
     const auto corner = [](const EdgeUse& use, int next) {
         return 3 * as_index(use.triangle) + as_index((use.side + next) % 3);
     };
@@ -122,7 +120,7 @@ Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double margin) {
     return box;
 }
 
-// Closed parts, and what they touch of each other.
+// Closed parts, and which of them touch each other.
 class Parts {
   public:
     Parts(std::vector<Surface> parts, double tolerance)
@@ -142,7 +140,7 @@ class Parts {
         for (const auto& [one, two] : touching_) groups_.unite(one, two);
     }
 
-    // The numbers of the parts that hang together, each list in order.
+    // Returns the numbers of the parts that are connected by contacts, each list in ascending order.
     std::vector<std::vector<std::size_t>> groups() {
         std::map<std::size_t, std::vector<std::size_t>> by_root;
         for (std::size_t i = 0; i < parts_.size(); ++i) by_root[groups_.root(i)].push_back(i);
@@ -185,7 +183,7 @@ class Parts {
     [[nodiscard]] double tolerance() const { return tolerance_; }
     [[nodiscard]] const Surface& operator[](std::size_t part) const { return parts_[part]; }
 
-    // Of two that touch.
+    // Names two parts of the group that touch, with their boxes.
     [[nodiscard]] std::string names_of_two(const std::vector<std::size_t>& group) const {
         const auto pair = std::find_if(touching_.begin(), touching_.end(), [&](const auto& two) {
             return std::find(group.begin(), group.end(), two.first) != group.end();
@@ -209,7 +207,8 @@ class Parts {
         return {vertices[as_index(a)], vertices[as_index(b)], vertices[as_index(c)]};
     }
 
-    // Calls visit(t, u) with the triangles of two parts whose boxes come near, until it returns false.
+    // Calls visit(t, u) with the triangles of two parts whose boxes lie within the tolerance of each other,
+    // until it returns false.
     template <typename Visit>
     void visit_near(std::size_t one, std::size_t two, const Visit& visit) {
         const TriangleTree& its = tree(two);
@@ -244,7 +243,7 @@ class Parts {
     std::vector<std::optional<TriangleTree>> trees_;
     std::vector<Eigen::AlignedBox3d> boxes_;
     std::vector<std::pair<std::size_t, std::size_t>> touching_;
-    Classes groups_;
+    DisjointSets groups_;
 };
 
 ExactMesh exact(const Surface& surface) {
@@ -276,8 +275,8 @@ Surface rounded(const ExactMesh& mesh) {
     return surface;
 }
 
-// The union of parts, the smallest first, so that the time grows little faster than their triangles; none
-// where it is no surface with two faces at each edge.
+// Returns the union of the parts, joined from the smallest on, so that the time grows little faster than the
+// number of triangles; nothing where it is no surface with two faces at each edge.
 std::optional<Surface> united(const Parts& parts, const std::vector<std::size_t>& group) {
     using Sized = std::pair<std::size_t, std::size_t>;
     std::vector<ExactMesh> meshes;
@@ -297,7 +296,7 @@ std::optional<Surface> united(const Parts& parts, const std::vector<std::size_t>
         try {
             if (!processing::corefine_and_compute_union(meshes[one], meshes[two], both, strictly))
                 return std::nullopt;
-        } catch (const std::exception&) {  // one of them passes through itself
+        } catch (const std::exception&) {  // a part intersects itself
             return std::nullopt;
         }
         meshes[one].clear();
@@ -307,14 +306,14 @@ std::optional<Surface> united(const Parts& parts, const std::vector<std::size_t>
     return rounded(meshes[waiting.top().second]);
 }
 
-// A union of parts, or why there is none that is a body's surface.
+// The union of parts, or the reason why it is not the surface of a body.
 struct Union {
     Surface surface;
     bool is_sound = false;
-    std::string error;  // empty where it is no surface at all, or faces of it meet
+    std::string error;  // empty where it is no surface at all, or its faces cross or touch
 };
 
-// `part`: of the diagonal, of the vertices that are one.
+// Joins a group of parts; vertices within `part` of the diagonal are welded.
 Union soundly_united(const Parts& parts, const std::vector<std::size_t>& group, double part) {
     Union whole;
     const std::optional<Surface> exact_union = united(parts, group);
@@ -328,10 +327,10 @@ Union soundly_united(const Parts& parts, const std::vector<std::size_t>& group, 
     }
     try {
         require_sound_surface(whole.surface);
-        // Those a hair apart may still touch in an edge or a point.
+        // Parts that were just separated may still touch in an edge or a point.
         whole.is_sound = !Parts(parts_of(whole.surface), parts.tolerance()).any_touch();
     } catch (const Error&) {
-        // Faces of the union, which the file does not have.
+        // The message would name faces of the union, which are not those of the file.
     }
     return whole;
 }

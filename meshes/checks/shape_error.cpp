@@ -21,10 +21,10 @@ constexpr double most_volume = 0.005;
 constexpr double most_distance = 0.005;
 constexpr double most_area = 0.02;
 
-// Chords of a curved triangle's cuts lie within a thousandth of its size of it.
+// Cut so often, the flat pieces lie within a thousandth of a curved triangle's size of it.
 constexpr int cuts_of_curved_triangle = 4;
 constexpr double points_over_the_area = 4000.0;
-constexpr std::size_t most_triangles = 20000;  // those beyond are left out evenly
+constexpr std::size_t most_triangles = 20000;  // of more, every nth is sampled
 constexpr std::size_t most_vertices = 20000;
 
 struct Distances {
@@ -32,7 +32,8 @@ struct Distances {
     double mean = 0.0;      // over the area
 };
 
-// The distances of points spread over the flat triangles, and of their vertices, from the other surface.
+// Measures the distances of points spread over the flat triangles, and of their vertices, from the other
+// surface.
 Distances distances(const Surface& from, const TriangleTree& to) {
     Distances found;
     double squared = 0.0;
@@ -84,7 +85,7 @@ Smoothing smoothing_of(const Surface& flat) {
     const std::vector<EdgeUse> uses = edge_uses(flat);
     const auto edges = edges_of(uses);
     const auto area = [&](const EdgeUse& use) { return area_vector(flat, as_index(use.triangle)); };
-    const auto turn_at = [&](std::span<const EdgeUse> edge) {
+    const auto angle_at = [&](std::span<const EdgeUse> edge) {
         const Vector3d one = area(edge.front());
         const Vector3d two = area(edge.back());
         return std::atan2(one.cross(two).norm(), one.dot(two));
@@ -98,7 +99,7 @@ Smoothing smoothing_of(const Surface& flat) {
         return t;
     };
     for (const auto& edge : edges) {
-        if (turn_at(edge) < coplanar) parent[facet_of(edge.front())] = facet_of(edge.back());
+        if (angle_at(edge) < coplanar) parent[facet_of(edge.front())] = facet_of(edge.back());
     }
     std::vector<double> facet_areas(flat.triangle_count(), 0.0);
     for (const EdgeUse& use : uses) facet_areas[facet_of(use)] += area(use).norm() / 3.0;
@@ -107,17 +108,17 @@ Smoothing smoothing_of(const Surface& flat) {
     double between = 0.0;
     for (const auto& edge : edges) {
         const EdgeUse& use = edge.front();
-        const double turn = turn_at(edge);
-        if (turn > sharp_angle || turn < coplanar) continue;
+        const double angle = angle_at(edge);
+        if (angle > sharp_angle || angle < coplanar) continue;
         const Vector3d along = flat.vertices[as_index(use.high)] - flat.vertices[as_index(use.low)];
         const double length = along.norm();
-        // Across the edge: a triangle's height, or what a strip of several has in the mean.
+        // The width across the edge: the triangle's height, or the mean width of its facet.
         const auto width_of = [&](const EdgeUse& side) {
             return std::max(2.0 * area(side).norm(), facet_areas[facet_of(side)]) / length;
         };
         const double width = std::min(width_of(use), width_of(edge.back()));
-        // The segment of a circle over a chord of this width, whose next one turns by this angle.
-        const double volume = length * width * width * turn / 12.0;
+        // The circular segment over a chord of this width, where the next chord is rotated by this angle.
+        const double volume = length * width * width * angle / 12.0;
         const bool hollow = area(use).cross(area(edge.back())).dot(along) * (use.forward ? 1.0 : -1.0) < 0.0;
         lost += hollow ? -volume : volume;
         between += volume;

@@ -17,7 +17,8 @@
 namespace samara {
 namespace {
 
-// Strictly inside by this part of the triangle and of the segment: what only touches does not cross.
+// A crossing lies inside the triangle and the segment by this relative margin: triangles that only touch do
+// not cross.
 constexpr double margin = 1e-6;
 
 using Triangle = TriangleTree::Triangle;
@@ -45,7 +46,8 @@ bool has(const Triangle& triangle, std::int32_t vertex) {
     return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
 }
 
-// The first side of `sides` that goes through `target`, sides that end on a corner of the target left out.
+// Returns where a side of the triangle `sides` pierces the triangle `target`. Sides that end on a corner of
+// the target are skipped.
 std::optional<Vector3d> pierce_by_sides(const TriangleTree& tree, std::size_t sides, std::size_t target) {
     const Triangle& its = tree.triangles()[target];
     for (int i = 0; i < 3; ++i) {
@@ -62,8 +64,8 @@ bool share_a_corner(const Triangle& one, const Triangle& two) {
     return std::any_of(one.begin(), one.end(), [&](std::int32_t vertex) { return has(two, vertex); });
 }
 
-// Whether the corners of a triangle that are not the base's too lie all on one side of the base's plane,
-// farther than the distance: around a corner of many triangles most do.
+// Whether all corners that the triangle does not share with the base lie on one side of the base's plane,
+// farther than `distance`. Most triangles around a common corner do, which saves the longer tests.
 bool lies_on_one_side(const TriangleTree& tree, std::size_t triangle, std::size_t base, double distance) {
     const Vector3d normal =
         (tree.corner(base, 1) - tree.corner(base, 0)).cross(tree.corner(base, 2) - tree.corner(base, 0));
@@ -84,7 +86,7 @@ bool lies_on_one_side(const TriangleTree& tree, std::size_t triangle, std::size_
 void require_no_contact(const Surface& surface) {
     const TriangleTree tree(surface.vertices, surface.corners);
     const double tolerance = welding_tolerance * bounding_box(surface).diagonal().norm();
-    // Slivers between neighbours may be turned over by rounding.
+    // Rounding may overturn slivers between neighbours.
     const double least_fold = 1e6 * tolerance * tolerance;
     const auto corners = [&](std::size_t t) {
         return std::array{tree.corner(t, 0), tree.corner(t, 1), tree.corner(t, 2)};
@@ -126,12 +128,13 @@ void require_sound_surface(const Surface& surface) {
 
 namespace {
 
-constexpr double least_share = 1e-6;    // of the smaller triangle
-constexpr double most_slope = 0.1;      // of the one triangle on the other
-constexpr double most_distance = 1e-4;  // over the width of the patch: sharp wedges are no touching sides
+constexpr double least_share = 1e-6;  // of the smaller triangle's area
+constexpr double most_slope = 0.1;    // sine of the angle between the triangles
+constexpr double most_distance =
+    1e-4;  // relative to the width of the patch: the sides of a sharp wedge do not touch
 
-// Twice the area of the triangle in the plane, positive where it turns left.
-double turn(const Vector3d& from, const Vector3d& to, const Vector3d& p) {
+// Returns twice the signed area of the triangle in the xy-plane, positive for counterclockwise corners.
+double twice_signed_area(const Vector3d& from, const Vector3d& to, const Vector3d& p) {
     return (to.x() - from.x()) * (p.y() - from.y()) - (to.y() - from.y()) * (p.x() - from.x());
 }
 
@@ -139,13 +142,13 @@ double turn(const Vector3d& from, const Vector3d& to, const Vector3d& p) {
 bool lies_beside(const std::array<Vector3d, 3>& triangle, const Vector3d& from, const Vector3d& to) {
     constexpr double rounding = 1e-12;
     return std::all_of(triangle.begin(), triangle.end(), [&](const Vector3d& p) {
-        return turn(from, to, p) <= rounding * (to - from).norm() * (p - from).norm();
+        return twice_signed_area(from, to, p) <= rounding * (to - from).norm() * (p - from).norm();
     });
 }
 
-// The part of a convex polygon to the left of the line from `from` to `to`; z is carried along.
+// Clips a convex polygon to the left of the line from `from` to `to` in the xy-plane; z is interpolated.
 void keep_left(std::vector<Vector3d>& polygon, const Vector3d& from, const Vector3d& to) {
-    const auto side = [&](const Vector3d& p) { return turn(from, to, p); };
+    const auto side = [&](const Vector3d& p) { return twice_signed_area(from, to, p); };
     std::vector<Vector3d> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vector3d& p = polygon[i];
@@ -162,7 +165,8 @@ void keep_left(std::vector<Vector3d>& polygon, const Vector3d& from, const Vecto
 
 double twice_the_area(const std::vector<Vector3d>& polygon) {
     double sum = 0.0;
-    for (std::size_t i = 2; i < polygon.size(); ++i) sum += turn(polygon[0], polygon[i - 1], polygon[i]);
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        sum += twice_signed_area(polygon[0], polygon[i - 1], polygon[i]);
     return std::abs(sum);
 }
 

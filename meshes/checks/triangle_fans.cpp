@@ -92,7 +92,7 @@ double TriangleFans::worst_quality(std::size_t v) const {
     return worst;
 }
 
-void TriangleFans::draw_into(std::size_t v, std::int32_t target) {
+void TriangleFans::collapse_into(std::size_t v, std::int32_t target) {
     for (const std::uint32_t* t = begin_around(v); t != end_around(v); ++t) {
         Triangle& triangle = triangles[*t];
         for (const std::int32_t corner : triangle) lock(corner);

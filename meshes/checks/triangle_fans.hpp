@@ -8,12 +8,12 @@
 
 namespace samara {
 
-/// 1 for an equilateral triangle, 0 for one without area.
+/// Returns the shape quality of a triangle: 1 where it is equilateral, 0 where it has no area.
 double triangle_quality(const Vector3d& a, const Vector3d& b, const Vector3d& c);
 
-/// A closed surface of flat triangles with the triangles around each vertex, whose vertices may be drawn into
-/// neighbours. What is around a vertex is as it was at the last `gather`: until the next, only what is not
-/// `locked` may be changed, and each change locks the vertices that it concerns.
+/// A closed surface of flat triangles, with the list of triangles around each vertex, for edge collapses. The
+/// lists are those of the last `gather`: until the next one only vertices that are not locked may be changed,
+/// and each change locks the vertices that it concerns.
 class TriangleFans {
   public:
     using Triangle = std::array<std::int32_t, 3>;
@@ -23,26 +23,26 @@ class TriangleFans {
     /// Drops removed triangles, finds the triangles around each vertex, unlocks all.
     void gather();
 
-    /// The vertices joined to v by an edge.
+    /// Lists the vertices joined to v by an edge.
     void gather_ring(std::size_t v, std::vector<std::int32_t>& ring) const;
 
-    /// The link condition for drawing a vertex with the one ring into a neighbour with the other: these share
-    /// two vertices, which keep at least three triangles each.
+    /// Whether a vertex with the first ring of neighbours can be collapsed into a neighbour with the other
+    /// ring (the link condition): the rings share two vertices, which keep at least three triangles each.
     [[nodiscard]] bool keeps_topology(const std::vector<std::int32_t>& ring,
                                       const std::vector<std::int32_t>& other) const;
 
-    /// Whether, with v drawn into the target, each triangle turns by less than the angle with that cosine and
-    /// keeps the quality `least`.
+    /// Whether, with v collapsed into the target, the normal of each triangle changes by less than the angle
+    /// with cosine `least_cosine`, and its quality stays at least `least`.
     [[nodiscard]] bool keeps_shape(std::size_t v, std::int32_t target, double least_cosine,
                                    double least) const;
 
-    /// The least quality of the triangles around v.
+    /// Returns the least triangle_quality() around v.
     [[nodiscard]] double worst_quality(std::size_t v) const;
 
-    /// Draws v into its neighbour: two triangles are removed.
-    void draw_into(std::size_t v, std::int32_t target);
+    /// Collapses v into its neighbour `target`: two triangles are removed.
+    void collapse_into(std::size_t v, std::int32_t target);
 
-    /// Triangles around v, as indices: [first, last).
+    /// The triangles around v, as a range of indices [begin, end).
     [[nodiscard]] const std::uint32_t* begin_around(std::size_t v) const {
         return around_.data() + first_around_[v];
     }
@@ -50,7 +50,7 @@ class TriangleFans {
         return around_.data() + first_around_[v + 1];
     }
 
-    /// Whether so many triangles meet at v, as in the middle of a fan, that trying to draw it somewhere takes
+    /// Whether v has so many triangles, as in the middle of a fan, that trying to collapse it would take
     /// long.
     [[nodiscard]] bool is_hub(std::size_t v) const { return end_around(v) - begin_around(v) > 32; }
 
@@ -60,7 +60,7 @@ class TriangleFans {
     [[nodiscard]] const Vector3d& vertex(std::int32_t v) const {
         return vertices[static_cast<std::size_t>(v)];
     }
-    /// Half the cross product of two sides.
+    /// Returns the area vector: half the cross product of two sides.
     [[nodiscard]] Vector3d area_vector_of(const Triangle& triangle) const;
 
     std::vector<Vector3d> vertices;

@@ -7,7 +7,7 @@
 namespace samara {
 namespace {
 
-// Long triangles, aslant in a box, have one box for each piece of them.
+// A long oblique triangle is cut into pieces with a box each, since a single box would be mostly empty.
 constexpr std::size_t most_pieces = 32;
 constexpr std::size_t pieces_of_all = 4'000'000;
 

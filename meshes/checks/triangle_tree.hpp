@@ -11,12 +11,13 @@
 
 namespace samara {
 
-/// The point of the triangle abc that is nearest to p. Ericson, Real-Time Collision Detection (2005), 5.1.5.
+/// Returns the point of the triangle abc that is nearest to p. Ericson, Real-Time Collision Detection
+/// (2005), 5.1.5.
 Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                                    const Vector3d& c);
 
-/// Spreads points over a flat triangle: calls `visit` with the middle of each of its equal parts and their
-/// number, which is about the one wanted and a square.
+/// Spreads points over a flat triangle: calls `visit` with the middle of each of its equal parts and the
+/// number of parts, a square number of about `wanted`.
 template <typename Visit>
 void visit_middles(const Vector3d& a, const Vector3d& b, const Vector3d& c, double wanted,
                    const Visit& visit) {
@@ -48,15 +49,15 @@ class TriangleTree {
             std::numeric_limits<double>::infinity();  ///< infinite: none within the bound
     };
 
-    /// The nearest point of the surface within `bound` of p.
+    /// Returns the nearest point of the surface within `bound` of p.
     [[nodiscard]] Nearest nearest(const Vector3d& p,
                                   double bound = std::numeric_limits<double>::infinity()) const;
 
     /// Whether the surface has a point within `bound` of p: stops at the first one it finds.
     [[nodiscard]] bool is_within(const Vector3d& p, double bound) const;
 
-    /// Calls `visit` with each triangle whose box meets `box`, with a long one maybe more than once, until
-    /// `visit` returns false.
+    /// Calls `visit` with each triangle whose box intersects `box`, perhaps more than once with a long one,
+    /// until `visit` returns false.
     template <typename Visit>
     void visit_overlaps(const Box& box, const Visit& visit) const {
         tree_.visit_near(box, [&](std::uint32_t piece) {
@@ -70,7 +71,7 @@ class TriangleTree {
     [[nodiscard]] const Vector3d& corner(std::size_t triangle, int index) const {
         return vertices_[static_cast<std::size_t>(triangles_[triangle][static_cast<std::size_t>(index)])];
     }
-    /// The smallest axis-aligned box around the triangle.
+    /// Returns the smallest axis-aligned box around the triangle.
     [[nodiscard]] Box box_of(std::size_t triangle) const;
 
   private:

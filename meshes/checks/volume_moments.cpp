@@ -11,8 +11,8 @@ constexpr std::array<double, 5> gauss_points = {0.046910077030668004, 0.23076534
 constexpr std::array<double, 5> gauss_weights = {
     0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
 
-// Surface integrals about an origin: of x . n / 3, of x (x . n) / 4 and of x x^T (x . n) / 5, whose
-// divergences are 1, x and x x^T.
+// Surface integrals about an origin of x . n / 3, x (x . n) / 4 and x x^T (x . n) / 5: the divergences of the
+// vector fields are 1, x and x x^T.
 struct Integrals {
     double volume = 0.0;
     Vector3d first = Vector3d::Zero();
@@ -24,7 +24,7 @@ Vector3d vertex(const Surface& surface, std::int32_t index, const Vector3d& orig
     return surface.vertices[static_cast<std::size_t>(index)] - origin;
 }
 
-// The tetrahedron of the origin and the triangle, in closed form.
+// Adds the tetrahedron between the origin and the triangle, in closed form.
 void add_flat(const Surface& surface, std::size_t t, const Vector3d& origin, Integrals& sum) {
     const auto& corners = surface.corners[t];
     const Vector3d a = vertex(surface, corners[0], origin);

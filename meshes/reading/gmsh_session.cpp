@@ -31,8 +31,8 @@ std::string one_line(std::string text) {
     return text;
 }
 
-// Cuts solids that overlap or touch in pieces that share their walls: the boundary of all of these together
-// is that of the union.
+// Cuts solids that overlap or touch into pieces that share their walls, so that the boundary of all pieces is
+// that of the union.
 bool cut_solids() {
     gmsh::vectorpair solids;
     gmsh::model::occ::getEntities(solids, 3);
@@ -92,7 +92,7 @@ void GmshSession::open(const std::string& label) {
 }
 
 double GmshSession::import_shapes(const std::string& label, const std::string& format) {
-    // Where lengths are small or large beside the tolerances, 1e-7, shapes are read again, larger or smaller.
+    // Shapes that are small or large relative to the tolerance of 1e-7 are read again, scaled.
     constexpr double least_diagonal = 10.0;
     constexpr double largest_diagonal = 1000.0;
     constexpr double usual_diagonal = 100.0;
@@ -125,8 +125,7 @@ double GmshSession::import_shapes(const std::string& label, const std::string& f
 
 void GmshSession::load(const std::string& label, const std::function<void()>& calls) {
     constexpr const char* what = "gmsh cannot read it";
-    // An exception out of the parser would leave its state for the next file: let it go on to the end
-    // instead.
+    // An exception out of the parser would leave its state to the next file, so it parses to the end instead.
     double abort_on_error = 0.0;
     gmsh::option::getNumber("General.AbortOnError", abort_on_error);
     gmsh::option::setNumber("General.AbortOnError", 0);
@@ -138,8 +137,8 @@ void GmshSession::load(const std::string& label, const std::function<void()>& ca
 }
 
 void GmshSession::generate_surface_mesh() {
-    // gmsh meshes surfaces in parallel, and an exception out of there would end the program; and it mends
-    // much of what it reports as an error.
+    // gmsh meshes surfaces in parallel, where an exception would end the program, and it recovers from much
+    // of what it reports as an error.
     double abort_on_error = 0.0;
     gmsh::option::getNumber("General.AbortOnError", abort_on_error);
     gmsh::option::setNumber("General.AbortOnError", 0);

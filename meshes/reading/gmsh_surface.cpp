@@ -1,5 +1,3 @@
-#include "meshes/reading/gmsh_surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,12 +10,13 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include "meshes/reading/gmsh_session.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
 namespace {
 
-// gmsh's numbers of the element types.
+// Element types by gmsh's numbers.
 enum ElementType { triangle = 2, quadrangle = 3, quadratic_triangle = 9 };
 
 using IndexOfTag = std::unordered_map<std::size_t, std::int32_t>;
@@ -45,21 +44,23 @@ void add_elements(Surface& surface, const IndexOfTag& index, int type, const std
     }
 }
 
-// A quadratic edge follows a curve to the fourth order where its node is the curve's point whose tangent is
-// parallel to the chord; anywhere else, as nearest to the chord's middle, to the third where the curvature
-// changes. On a surface the normal at the node is then across the chord, and between the normals at the ends:
-// so the middles of chords of a sphere, stretched to an ellipsoid, become those of the ellipsoid's. Where
-// nothing bends that says little, and the place near the middle, by this much of the residual, all.
+// A quadratic edge follows a curve to fourth order where its node is the point of the curve whose tangent is
+// parallel to the chord; with any other node, such as the point nearest to the chord's middle, only to third
+// order where the curvature changes. On a surface the normal at that node is perpendicular to the chord and
+// lies between the normals at the ends: affine images keep this property, so that the nodes of a sphere's
+// chords become those of an ellipsoid's. Where the surface is flat these conditions say little, and a small
+// weight on the distance from the middle decides.
 constexpr double weight_of_middle = 0.01;
 constexpr int most_steps = 20;
-constexpr double good_step = 1e-5;  // over the edge's length: the node's own place counts to the second order
-constexpr double most_astray = 0.5;  // from the middle, over the edge's length
-constexpr double least_turn = 1e-6;  // between the normals at the ends
+constexpr double good_step =
+    1e-5;  // relative to the edge's length: an error of the node counts to second order
+constexpr double most_astray = 0.5;  // distance from the middle, relative to the edge's length
+constexpr double least_sine = 1e-6;  // between the normals at the ends
 
 using Places = std::unordered_map<std::size_t, Eigen::Vector2d>;
 
-// The parameters of the nodes of a curve (its one comes first) or a surface, and of its boundary, by their
-// tags.
+// Returns the parameters of the nodes of a curve (only the first is used) or a surface and of its boundary,
+// by their tags.
 Places places_on(int dimension, int tag) {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates;
@@ -76,7 +77,8 @@ Places places_on(int dimension, int tag) {
     return places;
 }
 
-// The parameters of the point of a curve or surface that is nearest to the given one, and that point. Slow.
+// Returns the parameters of the point of a curve or surface that is nearest to the given one, and that point.
+// Slow.
 std::pair<Eigen::Vector2d, Vector3d> nearest_on(int dimension, int tag, const Vector3d& point) {
     std::vector<double> nearest;
     std::vector<double> place;
@@ -85,7 +87,7 @@ std::pair<Eigen::Vector2d, Vector3d> nearest_on(int dimension, int tag, const Ve
     return {{place[0], dimension == 2 ? place[1] : 0.0}, Vector3d(nearest.data())};
 }
 
-// Where the nodes of edges go on one surface of the geometry.
+// Finds the nodes of edges on one surface of the geometry.
 class NodesOnSurface {
   public:
     explicit NodesOnSurface(int tag) : tag_(tag), places_(places_on(2, tag)) {
@@ -95,25 +97,26 @@ class NodesOnSurface {
         range_ = Eigen::Vector2d(high.data()) - Eigen::Vector2d(low.data());
     }
 
-    // The node of the edge from a to b.
+    // Returns the node of the edge from a to b.
     [[nodiscard]] Vector3d between(const Vector3d& a, const Vector3d& b, std::size_t tag_a,
                                    std::size_t tag_b) const {
         const Vector3d middle = 0.5 * (a + b);
         const auto one = places_.find(tag_a);
         const auto two = places_.find(tag_b);
-        Vector3d turn = Vector3d::Zero();
+        Vector3d axis = Vector3d::Zero();
         if (one != places_.end() && two != places_.end()) {
             for (const Eigen::Vector2d& end : {two->second, over_seam(one->second, two->second)}) {
-                turn = turn_between(one->second, end);
-                if (const auto found = from(0.5 * (one->second + end), b - a, middle, turn)) return *found;
+                axis = axis_between(one->second, end);
+                if (const auto found = from(0.5 * (one->second + end), b - a, middle, axis)) return *found;
             }
         }
         const auto [place, nearest] = nearest_on(2, tag_, middle);
-        return from(place, b - a, middle, turn).value_or(nearest);
+        return from(place, b - a, middle, axis).value_or(nearest);
     }
 
   private:
-    // The place `two` as it is next to the other across the seam of a surface that closes.
+    // Returns the parameters `two`, shifted by a period of a closed surface where that brings them nearer to
+    // `one`.
     [[nodiscard]] Eigen::Vector2d over_seam(const Eigen::Vector2d& one, Eigen::Vector2d two) const {
         for (Eigen::Index i = 0; i < 2; ++i) {
             const double apart = two[i] - one[i];
@@ -122,21 +125,21 @@ class NodesOnSurface {
         return two;
     }
 
-    // The unit vector across the normals at two places; zero where they are parallel. Just within: at the
-    // poles of a sphere there is none.
-    [[nodiscard]] Vector3d turn_between(const Eigen::Vector2d& one, const Eigen::Vector2d& two) const {
+    // Returns the unit vector perpendicular to the normals at two places; zero where they are parallel. The
+    // places are moved slightly inwards, since at the poles of a sphere there is no normal.
+    [[nodiscard]] Vector3d axis_between(const Eigen::Vector2d& one, const Eigen::Vector2d& two) const {
         constexpr double within = 1e-3;
         const Eigen::Vector2d near_one = one + within * (two - one);
         const Eigen::Vector2d near_two = two + within * (one - two);
         std::vector<double> normals;
         gmsh::model::getNormal(tag_, {near_one.x(), near_one.y(), near_two.x(), near_two.y()}, normals);
-        const Vector3d turn = Vector3d(normals.data()).cross(Vector3d(normals.data() + 3));
-        return turn.norm() > least_turn ? turn.normalized() : Vector3d::Zero();
+        const Vector3d axis = Vector3d(normals.data()).cross(Vector3d(normals.data() + 3));
+        return axis.norm() > least_sine ? axis.normalized() : Vector3d::Zero();
     }
 
-    // Gauss and Newton from the place.
+    // Gauss-Newton iteration from the place.
     [[nodiscard]] std::optional<Vector3d> from(Eigen::Vector2d place, const Vector3d& along,
-                                               const Vector3d& middle, const Vector3d& turn) const {
+                                               const Vector3d& middle, const Vector3d& axis) const {
         const double length = along.norm();
         const Vector3d chord = along / length;
         for (int step = 0; step < most_steps; ++step) {
@@ -160,9 +163,9 @@ class NodesOnSurface {
             const double pull = weight_of_middle / length;
             const Matrix3d across = pull * (Matrix3d::Identity() - normal * normal.transpose());
             Eigen::Matrix<double, 5, 2> jacobian;
-            jacobian << chord.transpose() * change, turn.transpose() * change, across * slope;
+            jacobian << chord.transpose() * change, axis.transpose() * change, across * slope;
             Eigen::Matrix<double, 5, 1> residual;
-            residual << chord.dot(normal), turn.dot(normal), across * (point - middle);
+            residual << chord.dot(normal), axis.dot(normal), across * (point - middle);
             const Eigen::Matrix2d normal_matrix = jacobian.transpose() * jacobian;
             const Eigen::Vector2d shift = -normal_matrix.ldlt().solve(jacobian.transpose() * residual);
             if (!shift.allFinite()) break;
@@ -177,7 +180,7 @@ class NodesOnSurface {
     Eigen::Vector2d range_;
 };
 
-// The same on a curve: there the point that is farthest from the chord.
+// Finds the nodes of edges on one curve of the geometry: the points that are farthest from the chords.
 class NodesOnCurve {
   public:
     explicit NodesOnCurve(int tag) : tag_(tag), places_(places_on(1, tag)) {}
@@ -189,7 +192,7 @@ class NodesOnCurve {
         if (one != places_.end() && two != places_.end()) {
             if (const auto found = from(0.5 * (one->second.x() + two->second.x()), a, b)) return *found;
         }
-        // As over the end of a closed curve.
+        // The parameters do not lead there across the end of a closed curve.
         const auto [place, nearest] = nearest_on(1, tag_, 0.5 * (a + b));
         return from(place.x(), a, b).value_or(nearest);
     }
@@ -210,7 +213,7 @@ class NodesOnCurve {
             gmsh::model::getSecondDerivative(1, tag_, {place}, numbers);
             const Vector3d bend(numbers.data());
             const Vector3d off = arm - arm.dot(chord) * chord;
-            const Vector3d out = off.norm() > least_turn * length ? off.normalized() : Vector3d::Zero();
+            const Vector3d out = off.norm() > least_sine * length ? off.normalized() : Vector3d::Zero();
             const double speed = slope.norm();
             const Eigen::Vector2d residual(out.dot(slope) / speed,
                                            weight_of_middle / length * arm.dot(slope) / speed);
@@ -234,7 +237,7 @@ class EdgeNodeMaker {
         index_ = add_vertices(vertices);
     }
 
-    // Curves before surfaces: an edge gets its node on the first that it lies on.
+    // To be called before add_on_surface(): an edge gets its node on the first entity that it lies on.
     void add_on_curve(int tag) { add(NodesOnCurve(tag), edges_on(1, tag)); }
 
     void add_on_surface(int tag) { add(NodesOnSurface(tag), edges_on(2, tag)); }
@@ -250,7 +253,7 @@ class EdgeNodeMaker {
         return surface_.vertices[static_cast<std::size_t>(index_.at(tag))];
     }
 
-    // Books the next vertex as the node of the edge, unless the edge has one.
+    // Registers the next vertex as the node of the edge, unless the edge has one; returns whether it did.
     bool is_new(std::size_t from, std::size_t to) {
         const std::int32_t a = index_.at(from);
         const std::int32_t b = index_.at(to);
@@ -266,7 +269,7 @@ class EdgeNodeMaker {
         }
     }
 
-    // The mesh's edges, as tags of nodes, on a curve or a surface.
+    // Returns the mesh's edges on a curve or a surface, as tags of nodes.
     static std::vector<Tags> edges_on(int dimension, int tag) {
         std::vector<int> types;
         std::vector<std::vector<std::size_t>> elements;

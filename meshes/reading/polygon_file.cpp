@@ -1,5 +1,3 @@
-#include "meshes/reading/polygon_file.hpp"
-
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -12,6 +10,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <fmt/format.h>
 
+#include "meshes/reading/shape_reader.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/mesh_text.hpp"
@@ -24,7 +23,7 @@ namespace {
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Polygon = std::vector<std::size_t>;
 
-// CGAL tells what is wrong on the standard error.
+// Captures standard error, where CGAL reports what is wrong with a file.
 class CaughtErrors {
   public:
     CaughtErrors() : old_(std::cerr.rdbuf(stream_.rdbuf())) {}
@@ -42,7 +41,7 @@ class CaughtErrors {
     std::streambuf* old_;
 };
 
-// As CGAL reads it: without a byte order mark, and lines that end as on Unix.
+// Returns the text as CGAL reads it: without a byte order mark, and with Unix line ends.
 std::string plain(const std::string& bytes, const std::string& label, ShapeFormat format) {
     std::string text(without_byte_order_mark(bytes, label));
     const bool is_binary =
@@ -66,9 +65,9 @@ Surface read_polygon_file(const std::filesystem::path& file, ShapeFormat format)
     std::istringstream stream(plain(read_at_most(file, most_mesh_bytes), label, format));
     std::vector<Point> points;
     std::vector<Polygon> polygons;
-    const char* kind = format == ShapeFormat::ply ? "PLY" : "OFF";
+    const char* const name = format == ShapeFormat::ply ? "PLY" : "OFF";
     const auto fail = [&](const std::string& reason) {
-        throw Error(fmt::format("{}: is no sound {} file{}{}; export it again, or as .stl", label, kind,
+        throw Error(fmt::format("{}: is no sound {} file{}{}; export it again, or as .stl", label, name,
                                 reason.empty() ? "" : ": ", reason));
     };
     {

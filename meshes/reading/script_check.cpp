@@ -19,7 +19,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// A word, a text in quotes (with its first quote alone), a sign, or nothing at the end.
+// A word, a quoted text (represented by its first quote), a sign, or an empty text at the end.
 struct Token {
     std::string_view text;
     int line = 0;
@@ -28,7 +28,7 @@ struct Token {
     [[nodiscard]] bool is_text() const { return text == "\"" || text == "'"; }
 };
 
-// The tokens of gmsh's Gmsh.l, as far as statements are told apart by them.
+// Splits a script into the tokens of gmsh's Gmsh.l, as far as statements are distinguished by them.
 class Tokens {
   public:
     explicit Tokens(std::string_view script) : rest_(script) {}
@@ -95,13 +95,13 @@ std::string_view rejected_commands(std::string_view word) {
 void require_shape_script(std::string_view script, const std::string& label) {
     Tokens tokens(script);
     Token before;
-    int depth_of_printf = -1;  // of its parentheses; -1: in none
+    int depth_of_printf = -1;  // depth of parentheses inside a Printf; -1: outside
     Token printf_token;
     for (Token token = tokens.next(); !token.text.empty();) {
         const Token after = tokens.next();
         if (token.text == "Exit") reject(label, token, "ends gmsh");
         if (token.text == "OnelabRun") reject(label, token, "starts a program");
-        // The words of commands are no keywords: variables and macros may be called so.
+        // The names of commands are no keywords: variables and macros may have them too.
         const bool is_name = is_one_of(before.text, {"For", "Macro", "Function", "Call"});
         if (!is_name && (after.is_text() || after.is_word())) {
             const std::string_view what = rejected_commands(token.text);

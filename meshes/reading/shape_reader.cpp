@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -11,18 +12,20 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include <Model/COM/NMR_DLLInterfaces.h>
 #include <fmt/format.h>
 
-#include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
-#include "meshes/reading/gmsh_surface.hpp"
-#include "meshes/reading/polygon_file.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/files/confined_process.hpp"
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"
+#include "samara/core/surface/welded_surface.hpp"
 #include "samara/formats/display_mesh_file.hpp"
 
 namespace samara {
@@ -81,7 +84,7 @@ ShapeFormat shape_format(const std::filesystem::path& file) {
     const auto found = formats.find(extension_of(file));
     if (found == formats.end()) {
         throw Error(fmt::format(
-            "{}: is of no known kind; give a .geo, .step, .stp, .brep, .stl, .obj, .ply, .off, .glb, "
+            "{}: is of no known format; give a .geo, .step, .stp, .brep, .stl, .obj, .ply, .off, .glb, "
             ".gltf, .3mf, .msh or .body.h5 file (Blender opens most other meshes and exports .stl, "
             "FreeCAD most geometry and exports .step)",
             file.string()));
@@ -102,9 +105,9 @@ void require_beginning(const std::filesystem::path& file, ShapeFormat format) {
     if (!stream) throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
     stream.read(block.data(), block.size());
     const std::string_view start(block.data(), static_cast<std::size_t>(stream.gcount()));
-    const auto require = [&](bool holds, const char* kind, const char* beginning) {
+    const auto require = [&](bool holds, const char* name, const char* beginning) {
         if (holds) return;
-        const std::string what = start.empty() ? "is empty" : fmt::format("is no {} file", kind);
+        const std::string what = start.empty() ? "is empty" : fmt::format("is no {} file", name);
         throw Error(fmt::format("{}: {}: these begin with {}", file.string(), what, beginning));
     };
     if (format == ShapeFormat::step) {
@@ -112,7 +115,7 @@ void require_beginning(const std::filesystem::path& file, ShapeFormat format) {
     } else if (format == ShapeFormat::brep) {
         require(start.find("CASCADE Topology") != std::string_view::npos, "BREP", "CASCADE Topology");
     } else if (format == ShapeFormat::msh) {
-        // Of the first version, of the later ones, and with a comment before.
+        // The beginnings of later versions, of the first version, and of files with a comment.
         const bool holds =
             start.starts_with("$MeshFormat") || start.starts_with("$NOD") || start.starts_with("$Comments");
         require(holds, "MSH", "$MeshFormat");
@@ -126,7 +129,8 @@ struct Release {
 };
 using Object = std::unique_ptr<NMR::PLib3MFBase, Release>;
 
-// By the number of lib3mf's eModelUnit: micrometre, millimetre, centimetre, inch, foot, metre.
+// Metres of each unit, by the number of lib3mf's eModelUnit: micrometre, millimetre, centimetre, inch, foot,
+// metre.
 constexpr std::array<double, 6> metres = {1e-6, 1e-3, 1e-2, 0.0254, 0.3048, 1.0};
 
 class Reader {
@@ -150,7 +154,7 @@ class Reader {
         return metres.at(std::min<std::size_t>(number, metres.size() - 1));
     }
 
-    // All that is built, placed: lib3mf does so itself where it writes an STL file.
+    // Returns all built objects at their places as an STL file, into which lib3mf resolves them itself.
     [[nodiscard]] std::string built() const {
         NMR::PLib3MFModelWriter* writer = nullptr;
         require(NMR::lib3mf_model_querywriter(model_.get(), "stl", &writer), model_.get());
@@ -190,6 +194,102 @@ Surface read_3mf_file(const std::filesystem::path& file) {
     const double unit = reader.unit();
     for (Vector3d& vertex : surface.vertices) vertex *= unit;
     return surface;
+}
+
+namespace {
+
+// A message of the confined process holds a share of the work or, at the end, a surface: its lists one after
+// the other, each with its length.
+constexpr char share_tag = 'p';
+constexpr char surface_tag = 's';
+
+static_assert(std::is_trivially_copyable_v<std::array<std::int32_t, 3>>);
+static_assert(sizeof(Vector3d) == 3 * sizeof(double));
+
+template <typename Item>
+void append(std::string& bytes, const std::vector<Item>& list) {
+    const std::uint64_t size = list.size() * sizeof(Item);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes.append(reinterpret_cast<const char*>(list.data()), size);
+}
+
+// Takes a list off the front of the bytes; returns whether there was a whole one.
+template <typename Item>
+bool take(std::string_view& bytes, std::vector<Item>& list) {
+    std::uint64_t size = 0;
+    if (bytes.size() < sizeof size) return false;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    bytes.remove_prefix(sizeof size);
+    if (size > bytes.size() || size % sizeof(Item) != 0) return false;
+    list.resize(size / sizeof(Item));
+    if (size > 0) std::memcpy(static_cast<void*>(list.data()), bytes.data(), size);
+    bytes.remove_prefix(size);
+    return true;
+}
+
+Surface unpacked(std::string_view bytes, const std::string& label) {
+    Surface surface;
+    const bool whole = take(bytes, surface.vertices) && take(bytes, surface.corners) &&
+                       take(bytes, surface.edge_nodes) && bytes.empty();
+    if (!whole || (surface.order() == 2 && surface.edge_nodes.size() != surface.corners.size())) {
+        throw Error(fmt::format("{}: the process that reads it returned a damaged surface", label));
+    }
+    labelled(label, [&] { require_usable_numbers(surface); });
+    return surface;
+}
+
+}  // namespace
+
+std::vector<Surface> confined_surfaces(
+    const std::filesystem::path& shape, std::size_t count, double time_limit,
+    const std::function<std::vector<Surface>(const std::function<void(double)>& progress)>& read,
+    const std::function<void(double)>& progress) {
+    ConfinedLimits limits;
+    limits.cpu_seconds = time_limit;
+    // The folder of the name and, where that is a link, of the file.
+    for (const std::filesystem::path& file :
+         {std::filesystem::absolute(shape), std::filesystem::canonical(shape)}) {
+        limits.readable.push_back(file.parent_path());
+    }
+    std::vector<Surface> surfaces;
+    run_confined(
+        shape.string(), limits,
+        [&](const SendBytes& send) {
+            const std::vector<Surface> results = read([&](double share) {
+                std::string bytes(1, share_tag);
+                send(bytes.append(reinterpret_cast<const char*>(&share), sizeof share));
+            });
+            for (const Surface& result : results) {
+                std::string bytes(1, surface_tag);
+                append(bytes, result.vertices);
+                append(bytes, result.corners);
+                append(bytes, result.edge_nodes);
+                send(bytes);
+            }
+        },
+        [&](std::string_view bytes) {
+            double share = 0.0;
+            if (bytes.starts_with(surface_tag) && surfaces.size() < count) {
+                surfaces.push_back(unpacked(bytes.substr(1), shape.string()));
+            } else if (progress && bytes.size() == 1 + sizeof share) {
+                std::memcpy(&share, bytes.data() + 1, sizeof share);
+                progress(share);
+            }
+        });
+    if (surfaces.size() != count) {
+        throw Error(fmt::format("{}: the process that reads it returned a damaged surface", shape.string()));
+    }
+    return surfaces;
+}
+
+Surface confined_surface(const std::filesystem::path& shape, double time_limit,
+                         const std::function<Surface(const std::function<void(double)>& progress)>& read,
+                         const std::function<void(double)>& progress) {
+    return confined_surfaces(
+               shape, 1, time_limit,
+               [&](const std::function<void(double)>& tell) { return std::vector<Surface>{read(tell)}; },
+               progress)
+        .front();
 }
 
 }  // namespace samara

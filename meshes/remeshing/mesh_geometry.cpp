@@ -1,5 +1,3 @@
-#include "meshes/remeshing/mesh_geometry.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,12 +10,11 @@
 
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
-#include "meshes/reading/confined_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
-#include "meshes/reading/gmsh_surface.hpp"
 #include "meshes/reading/script_check.hpp"
 #include "meshes/reading/shape_reader.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
+#include "meshes/remeshing/remesh.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
 #include "samara/core/files/input_file.hpp"
@@ -30,10 +27,95 @@ namespace {
 
 using ProgressCall = std::function<void(double)>;
 
-// Asked for a number or a size of triangles, a mesh is no longer the shape from here on: 15 % of the volume.
+constexpr int most_attempts = 6;
+constexpr double good_count = 0.05;  // relative: nearer than this needs no further attempt
+constexpr double unlimited = 1e22;   // gmsh's own default for the largest size
+
+void set(const char* option, double value) {
+    gmsh::option::setNumber(option, value);
+}
+
+void generate_with_size(const MeshSizeField& field, double size) {
+    gmsh::model::mesh::setSizeCallback(
+        [&](int, int, double x, double y, double z) { return size * field(Vector3d(x, y, z)); });
+    GmshSession::generate_surface_mesh();
+    gmsh::model::mesh::removeSizeCallback();
+}
+
+std::size_t triangle_count(const std::vector<int>& tags) {
+    std::size_t count = 0;
+    for (const int tag : tags.empty() ? std::vector<int>{-1} : tags) {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements;
+        std::vector<std::vector<std::size_t>> nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, 2, tag);
+        for (const std::vector<std::size_t>& list : elements) count += list.size();
+    }
+    return count;
+}
+
+// Sets the options of the current GmshSession that meshing anew starts from, whatever a .geo file has set.
+void forget_sizes_of_file() {
+    set("Mesh.Algorithm", 6);  // frontal Delaunay: the best triangles
+    set("Mesh.ElementOrder", 1);
+    set("Mesh.RecombineAll", 0);
+    set("Mesh.SubdivisionAlgorithm", 0);
+    set("Mesh.MeshSizeFactor", 1);
+    set("Mesh.MeshSizeMin", 0);
+    set("Mesh.MeshSizeMax", unlimited);
+    set("Mesh.MeshSizeFromPoints", 0);
+    set("Mesh.MeshSizeFromCurvature", 0);
+    set("Mesh.MeshSizeExtendFromBoundary", 0);
+    // Sizes need not be exact: at gmsh's default of 1e-9 curves take ten times as long as surfaces.
+    set("Mesh.LcIntegrationPrecision", 1e-2);
+}
+
+// The mesh that gmsh holds of the surfaces with these tags (all, where none are given): welded, turned
+// outwards, of order 1, or of order 2 with nodes on the geometry.
+Surface mesh_held(const std::string& label, const std::vector<int>& tags, int order) {
+    Surface surface = labelled(label, [&] {
+        return welded(order == 2 ? curved_surface_of_model(label, tags) : surface_of_model(label, tags));
+    });
+    orient_outwards(surface);
+    return surface;
+}
+
+// Has gmsh mesh the surfaces anew and returns mesh_held() of order 1.
+Surface generated(const std::string& label, const std::vector<int>& tags) {
+    GmshSession::generate_surface_mesh();
+    return mesh_held(label, tags, 1);
+}
+
+// Has gmsh mesh the model with sizes by the field: `size` (units of the model) where they are largest, or,
+// with Sizing::triangles, as it takes for about options.triangles triangles; `size` is not used then.
+void mesh_model(const MeshSizeField& field, const MeshOptions& options, double size,
+                const std::vector<int>& tags) {
+    if (options.sizing != MeshOptions::Sizing::triangles) {
+        generate_with_size(field, size);
+        return;
+    }
+    // gmsh makes about a sixth more triangles than equilateral ones would be.
+    double next = std::sqrt(1.17 * field.triangle_count(1.0) / options.triangles);
+    double best = next;
+    double smallest_error = std::numeric_limits<double>::infinity();
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        generate_with_size(field, next);
+        const double ratio = static_cast<double>(triangle_count(tags)) / options.triangles;
+        const double error = std::abs(std::log(ratio));
+        if (error < good_count) return;
+        if (error < smallest_error) {
+            smallest_error = error;
+            best = next;
+        }
+        next *= std::sqrt(ratio);
+    }
+    generate_with_size(field, best);
+}
+
+// The limit of miss_of() where the number or size of triangles is given: 15 % of the volume.
 constexpr double most_missed_where_asked = 30.0;
 
-// Tags of the surfaces between matter and fluid.
+// Returns the tags of the surfaces between body and fluid.
 std::vector<int> outer_surfaces(const std::string& label) {
     gmsh::vectorpair entities;
     gmsh::model::getEntities(entities, 3);
@@ -56,7 +138,7 @@ std::vector<int> outer_surfaces(const std::string& label) {
 
 constexpr double finest = 1000.0;  // triangles across the body
 
-// Fine enough to see curvature, coarse enough to be quick: what sizes are measured on.
+// Returns the mesh on which sizes are measured: fine enough to resolve curvature, coarse enough to be quick.
 Surface reference_of_geometry(const std::string& label, const std::vector<int>& tags) {
     double low[3];
     double high[3];
@@ -70,7 +152,7 @@ Surface reference_of_geometry(const std::string& label, const std::vector<int>& 
     return reference;
 }
 
-// The mesh that gmsh holds, of the order that is asked for; curved triangles that turn over are made
+// Returns the mesh that gmsh holds, of the order that is asked for; overturned curved triangles are made
 // straight.
 Surface held_in_order(const std::string& label, const std::vector<int>& tags, int order) {
     Surface surface = mesh_held(label, tags, order == 1 ? 1 : 2);
@@ -79,7 +161,7 @@ Surface held_in_order(const std::string& label, const std::vector<int>& tags, in
     return flat && surface.order() == 2 ? without_edge_nodes(surface) : surface;
 }
 
-// The mesh, and the finer one of order 2 that it was held against.
+// Returns the mesh, and the finer one of order 2 that it was compared with.
 std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format, const MeshOptions& options,
                                     const ProgressCall& tell) {
     constexpr int most_times_finer = 8;
@@ -88,7 +170,8 @@ std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format
     const GmshSession session;
     double enlarged = 1.0;
     if (format == ShapeFormat::script) {
-        gmsh::option::setString("Geometry.OCCTargetUnit", "M");  // of the files that it merges
+        gmsh::option::setString("Geometry.OCCTargetUnit",
+                                "M");  // applies to the files that the script merges
         GmshSession::open(label);
     } else {
         enlarged = GmshSession::import_shapes(label, format == ShapeFormat::step ? "step" : "brep");
@@ -117,7 +200,7 @@ std::vector<Surface> meshed_by_gmsh(const std::string& label, ShapeFormat format
         MeshOptions sizes = options;
         sizes.size *= enlarged / options.scale;
         if (options.as_many_as_needed) {
-            // gmsh takes long, so that the number that the curvature needs is asked for at once.
+            // gmsh takes long, so that meshing starts with the number that the curvature needs.
             const double needed = equilateral_ones * field.triangle_count(field.size_for_curvature());
             sizes.triangles = static_cast<int>(std::clamp(needed, 1.0 * options.triangles, most_needed));
         }
@@ -158,89 +241,6 @@ MeshedShape mesh_geometry(const std::filesystem::path& file, const MeshOptions& 
                         100.0 * meshed.error.distance, 4 * meshed.surface.triangle_count()));
     }
     return meshed;
-}
-
-namespace {
-
-constexpr int most_attempts = 6;
-constexpr double good_count = 0.05;  // relative: nearer than this needs no further attempt
-constexpr double unlimited = 1e22;   // gmsh's own default for the largest size
-
-void set(const char* option, double value) {
-    gmsh::option::setNumber(option, value);
-}
-
-void generate_with_size(const MeshSizeField& field, double size) {
-    gmsh::model::mesh::setSizeCallback(
-        [&](int, int, double x, double y, double z) { return size * field(Vector3d(x, y, z)); });
-    GmshSession::generate_surface_mesh();
-    gmsh::model::mesh::removeSizeCallback();
-}
-
-std::size_t triangle_count(const std::vector<int>& tags) {
-    std::size_t count = 0;
-    for (const int tag : tags.empty() ? std::vector<int>{-1} : tags) {
-        std::vector<int> types;
-        std::vector<std::vector<std::size_t>> elements;
-        std::vector<std::vector<std::size_t>> nodes;
-        gmsh::model::mesh::getElements(types, elements, nodes, 2, tag);
-        for (const std::vector<std::size_t>& list : elements) count += list.size();
-    }
-    return count;
-}
-
-}  // namespace
-
-void forget_sizes_of_file() {
-    set("Mesh.Algorithm", 6);  // frontal Delaunay: the best triangles
-    set("Mesh.ElementOrder", 1);
-    set("Mesh.RecombineAll", 0);
-    set("Mesh.SubdivisionAlgorithm", 0);
-    set("Mesh.MeshSizeFactor", 1);
-    set("Mesh.MeshSizeMin", 0);
-    set("Mesh.MeshSizeMax", unlimited);
-    set("Mesh.MeshSizeFromPoints", 0);
-    set("Mesh.MeshSizeFromCurvature", 0);
-    set("Mesh.MeshSizeExtendFromBoundary", 0);
-    // Sizes are no more than wishes: at gmsh's own 1e-9 curves take ten times as long as surfaces.
-    set("Mesh.LcIntegrationPrecision", 1e-2);
-}
-
-Surface generated(const std::string& label, const std::vector<int>& tags) {
-    GmshSession::generate_surface_mesh();
-    return mesh_held(label, tags, 1);
-}
-
-Surface mesh_held(const std::string& label, const std::vector<int>& tags, int order) {
-    Surface surface = labelled(label, [&] {
-        return welded(order == 2 ? curved_surface_of_model(label, tags) : surface_of_model(label, tags));
-    });
-    orient_outwards(surface);
-    return surface;
-}
-
-void mesh_model(const MeshSizeField& field, const MeshOptions& options, double size,
-                const std::vector<int>& tags) {
-    if (options.sizing != MeshOptions::Sizing::triangles) {
-        generate_with_size(field, size);
-        return;
-    }
-    // gmsh makes about a sixth more triangles than equilateral ones would be.
-    double next = std::sqrt(1.17 * field.triangle_count(1.0) / options.triangles);
-    double best = next;
-    double smallest_error = std::numeric_limits<double>::infinity();
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        generate_with_size(field, next);
-        const double ratio = static_cast<double>(triangle_count(tags)) / options.triangles;
-        const double error = std::abs(std::log(ratio));
-        if (error < good_count) return;
-        if (error < smallest_error) {
-            smallest_error = error;
-            best = next;
-        }
-        next *= std::sqrt(ratio);
-    }
-    generate_with_size(field, best);
 }
 
 }  // namespace samara

@@ -17,15 +17,16 @@
 namespace samara {
 namespace {
 
-// Edges grade out to this part of the body's reach.
+// Sizes are graded within this part of the body's reach from an edge.
 constexpr double edge_reach = 0.25;
-// How the size varies over a body (docs/shapes.md), found best by trial, for flat and curved triangles alike.
+// How the size varies over a body (docs/shapes.md); the values were found by trial, for flat and curved
+// triangles.
 constexpr double curvature_power = 0.4;    // of the radius of the strongest curvature
-constexpr double smallest = 0.2;           // by curvature, over the largest
-constexpr double smallest_at_edges = 0.3;  // over the largest
+constexpr double smallest = 0.2;           // by curvature, relative to the largest size
+constexpr double smallest_at_edges = 0.3;  // relative to the largest size
 constexpr double steepest = 3.0;           // change of the relative size over the body's reach
 
-// The greatest distance of a vertex from the middle of all.
+// Returns the greatest distance of a vertex from the surface's centroid.
 double reach_of(const Surface& surface) {
     Vector3d middle = Vector3d::Zero();
     double area = 0.0;
@@ -40,8 +41,8 @@ double reach_of(const Surface& surface) {
     return reach;
 }
 
-// The angle (radians) by which the two triangles at the edge turn.
-double turn_at(const Surface& surface, std::span<const EdgeUse> edge) {
+// Returns the angle (radians) between the normals of the two triangles at the edge.
+double angle_at(const Surface& surface, std::span<const EdgeUse> edge) {
     const Vector3d first = area_vector(surface, as_index(edge.front().triangle));
     const Vector3d second = area_vector(surface, as_index(edge.back().triangle));
     return std::atan2(first.cross(second).norm(), first.dot(second));
@@ -52,13 +53,13 @@ std::vector<TriangleTree::Triangle> sharp_edges(const Surface& surface) {
     const std::vector<EdgeUse> uses = edge_uses(surface);
     for (const auto& edge : edges_of(uses)) {
         const EdgeUse& use = edge.front();
-        if (turn_at(surface, edge) > sharp_angle) sharp.push_back({use.low, use.high, use.high});
+        if (angle_at(surface, edge) > sharp_angle) sharp.push_back({use.low, use.high, use.high});
     }
     return sharp;
 }
 
-// The strongest normal curvature (1/m) at each vertex, sharp edges left out: of the curvature tensor of
-// Cohen- Steiner and Morvan, Restricted Delaunay Triangulations and Normal Cycle, SoCG 2003, summed over the
+// The strongest normal curvature (1/m) at each vertex, without sharp edges: by the curvature tensor of
+// Cohen-Steiner and Morvan, Restricted Delaunay Triangulations and Normal Cycle, SoCG 2003, summed over the
 // triangles around the vertex and its neighbours.
 class Curvature {
   public:
@@ -115,12 +116,12 @@ class Curvature {
         const double length = along.norm();
         neighbours_[low].emplace_back(high, length);
         neighbours_[high].emplace_back(low, length);
-        const double turn = turn_at(surface_, edge);
-        if (turn > sharp_angle) return;
+        const double angle = angle_at(surface_, edge);
+        if (angle > sharp_angle) return;
         const Vector3d first = area_vector(surface_, as_index(edge.front().triangle));
         const Vector3d second = area_vector(surface_, as_index(edge.back().triangle));
         const bool hollow = first.cross(second).dot(along) * (edge.front().forward ? 1.0 : -1.0) < 0.0;
-        const Matrix3d part = 0.5 * (hollow ? -turn : turn) / length * along * along.transpose();
+        const Matrix3d part = 0.5 * (hollow ? -angle : angle) / length * along * along.transpose();
         tensors_[low] += part;
         tensors_[high] += part;
     }
@@ -149,10 +150,10 @@ MeshSizeField::MeshSizeField(const Surface& reference)
 }
 
 double MeshSizeField::size_for_curvature() const {
-    constexpr double side = 0.9;                   // over the radius
-    constexpr double smallest_radius = 0.01;       // over the reach
+    constexpr double side = 0.9;                   // relative to the radius
+    constexpr double smallest_radius = 0.01;       // relative to the reach
     constexpr double left_out = 0.02;              // of the area
-    std::vector<std::pair<double, double>> sizes;  // with the area at each
+    std::vector<std::pair<double, double>> sizes;  // each with the area at its vertex
     double whole = 0.0;
     for (std::size_t i = 0; i < radii_.size(); ++i) {
         whole += areas_[i];
@@ -195,7 +196,7 @@ double MeshSizeField::operator()(const Vector3d& point) const {
 }
 
 double MeshSizeField::triangle_count(double size) const {
-    constexpr double places_over_the_area = 4000.0;
+    constexpr double samples_of_the_area = 4000.0;
     std::vector<double> areas;
     double whole = 0.0;
     for (std::size_t t = 0; t < tree_.triangles().size(); ++t) {
@@ -206,7 +207,7 @@ double MeshSizeField::triangle_count(double size) const {
     double count = 0.0;
     for (std::size_t t = 0; t < areas.size(); ++t) {
         visit_middles(tree_.corner(t, 0), tree_.corner(t, 1), tree_.corner(t, 2),
-                      areas[t] / whole * places_over_the_area, [&](const Vector3d& place, int parts) {
+                      areas[t] / whole * samples_of_the_area, [&](const Vector3d& place, int parts) {
                           const double side = size * (*this)(place);
                           count += areas[t] / parts / (std::sqrt(3.0) / 4.0 * side * side);
                       });

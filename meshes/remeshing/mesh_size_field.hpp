@@ -7,26 +7,25 @@
 
 namespace samara {
 
-/// Where a body's surface needs smaller triangles: the wanted length of sides at each place, over that where
-/// the body is flat and far from its edges. It falls with the strongest curvature, and within a quarter of
-/// the body's reach (its greatest distance from the middle) towards sharp edges with the square root of the
-/// distance, as the flow's potential varies there. Measured on a reference surface, which should resolve the
-/// curvature.
+/// The wanted length of triangle sides at each place of a body's surface, relative to that where the body is
+/// flat and far from its edges. It decreases with the strongest curvature, and within a quarter of the body's
+/// reach (its greatest distance from the middle) of sharp edges with the square root of the distance, as the
+/// flow's potential varies there. It is measured on a reference surface, which should resolve the curvature.
 class MeshSizeField {
   public:
     /// The reference must be closed, its vertices welded.
     explicit MeshSizeField(const Surface& reference);
 
-    /// The relative size at the point of the reference that is nearest to `point`.
+    /// Returns the relative size at the point of the reference that is nearest to `point`.
     [[nodiscard]] double operator()(const Vector3d& point) const;
 
-    /// The number of equilateral triangles of the wanted size that cover the surface, where 1 stands for
-    /// sides of the length `size` (m).
+    /// Returns the number of equilateral triangles of the wanted size that cover the surface, where the
+    /// relative size 1 means sides of length `size` (m).
     [[nodiscard]] double triangle_count(double size) const;
 
-    /// The size (m) with which sides are no longer than 0.9 times the least radius of curvature on all but 2
-    /// % of the surface: quadratic triangles then follow it. Radii below a hundredth of the reach are left
-    /// out.
+    /// Returns the size (m) with which sides are no longer than 0.9 times the least radius of curvature on
+    /// all but 2 % of the surface, so that quadratic triangles follow it. Radii below a hundredth of the
+    /// reach are ignored.
     [[nodiscard]] double size_for_curvature() const;
 
   private:

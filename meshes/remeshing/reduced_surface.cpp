@@ -1,5 +1,3 @@
-#include "meshes/remeshing/reduced_surface.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "meshes/checks/triangle_fans.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
+#include "meshes/remeshing/remesh.hpp"
 #include "samara/core/base/as_index.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/surface/creases.hpp"
@@ -20,16 +19,17 @@ namespace {
 
 using Triangle = TriangleFans::Triangle;
 
-constexpr double least_cosine = 0.5;    // between a triangle's normals before and after
-constexpr double least_quality = 0.15;  // 1: equilateral; or half of what the triangles around had before
-// The square of a length that a vertex is drawn counts with this weight, so that flat places stay resolved
-// and their triangles in shape.
+constexpr double least_cosine = 0.5;  // between a triangle's normals before and after
+constexpr double least_quality =
+    0.15;  // 1: equilateral; or half the least quality before, where that is smaller
+// The squared length of a collapse counts with this weight, so that flat places stay resolved with
+// well-shaped triangles.
 constexpr double weight_of_length = 1e-6;
-// One layer draws in this share of the vertices: the cheapest go first.
+// One layer removes this share of the vertices, those of the least cost first.
 constexpr double share_of_layer = 0.25;
 constexpr std::size_t vertices_of_a_piece = 4096;
 
-// Sum over planes, with weights, of the square of the distance of a point.
+// The weighted sum over planes of the squared distance of a point.
 struct Quadric {
     Matrix3d square = Matrix3d::Zero();
     Vector3d linear = Vector3d::Zero();
@@ -49,7 +49,7 @@ struct Quadric {
         constant += other.constant;
         weight += other.weight;
     }
-    // The mean square distance.
+    // Returns the mean square distance.
     [[nodiscard]] double mean(const Vector3d& point) const {
         return std::max(0.0, (point.dot(square * point) + 2.0 * linear.dot(point) + constant) / weight);
     }
@@ -58,7 +58,8 @@ struct Quadric {
 class Reduction {
   public:
     explicit Reduction(const Surface& surface) : fans_(surface.vertices, surface.corners) {
-        // About a vertex and in units of the body: squares of large numbers would cancel.
+        // Coordinates are relative to a vertex and to the body's size, since squares of large numbers would
+        // cancel.
         const Vector3d origin = fans_.vertices.front();
         Eigen::AlignedBox3d box;
         for (const Vector3d& vertex : fans_.vertices) box.extend(vertex);
@@ -77,7 +78,8 @@ class Reduction {
 
     [[nodiscard]] const std::vector<Triangle>& triangles() const { return fans_.triangles; }
 
-    // Removes one layer of vertices, so that at least `wanted` triangles are left; false where none could go.
+    // Removes one layer of vertices, so that at least `wanted` triangles are left; returns false where none
+    // could be removed.
     bool remove_layer(std::size_t wanted) {
         choose_targets();
         std::vector<std::uint32_t> order;
@@ -96,7 +98,7 @@ class Reduction {
             if (left <= wanted) break;
             const std::int32_t target = choices_[v].target;
             if (fans_.is_locked(static_cast<std::int32_t>(v)) || fans_.is_locked(target)) continue;
-            fans_.draw_into(v, target);
+            fans_.collapse_into(v, target);
             quadrics_[as_index(target)].add(quadrics_[v]);
             left -= 2;
         }
@@ -111,10 +113,10 @@ class Reduction {
     };
     using Ring = std::vector<std::int32_t>;
 
-    // The sharp edges that meet in a vertex.
+    // The sharp edges at a vertex.
     struct Sharpness {
         int edges = 0;
-        std::array<std::int32_t, 2> ends{};  // of the first two
+        std::array<std::int32_t, 2> ends{};  // far ends of the first two
     };
 
     [[nodiscard]] Sharpness sharpness_at(std::size_t v) const {
@@ -129,7 +131,7 @@ class Reduction {
         });
         if (smooth) return sharpness;
         for (const std::uint32_t* t = begin; t != end; ++t) {
-            // The edge from v to the next corner, which the other triangle runs along the other way.
+            // The edge from v to the next corner, which the other triangle has in the opposite direction.
             const Triangle& triangle = fans_.triangles[*t];
             const auto next_of = [&](const Triangle& corners, std::size_t step) {
                 const auto at = std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v));
@@ -157,7 +159,7 @@ class Reduction {
         });
     }
 
-    // The neighbour that v is drawn into at the least cost.
+    // Chooses the neighbour into which v is collapsed at the least cost.
     void choose_target(std::size_t v, Ring& ring, Ring& other) {
         fans_.gather_ring(v, ring);
         if (ring.empty() || fans_.is_hub(v)) return;
@@ -165,7 +167,7 @@ class Reduction {
         if (sharpness.edges != 0 && sharpness.edges != 2) return;
         const double least = std::min(least_quality, 0.5 * fans_.worst_quality(v));
         for (const std::int32_t target : ring) {
-            // Along the edge or not at all: across the rim of a plate the way is short.
+            // Along the edge only: across the thin rim of a plate the cost would be low.
             if (sharpness.edges == 2 && target != sharpness.ends[0] && target != sharpness.ends[1]) continue;
             const Vector3d& place = fans_.vertex(target);
             const double cost =

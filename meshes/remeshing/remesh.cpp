@@ -13,10 +13,7 @@
 
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
-#include "meshes/remeshing/edge_middle.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
-#include "meshes/remeshing/reduced_surface.hpp"
-#include "meshes/remeshing/remeshed_surface.hpp"
 #include "meshes/remeshing/smooth_shape.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/labelled.hpp"
@@ -28,17 +25,16 @@
 namespace samara {
 namespace {
 
-// The smooth shape through coarse facets may have this much more volume than they, and more is no more
-// believed.
+// The smooth shape through coarse facets may have this much more volume; a larger estimate is not trusted.
 constexpr double most_faceting = 0.03;
-// Asked for a number of triangles, a mesh is no longer the shape from this change of volume on.
+// Where the number of triangles is given, a mesh that changes the volume by more is rejected.
 constexpr double most_change = 0.15;
-// Triangles that turn by more (radians) where those of the shape do not lie on each other.
+// Triangles whose normals differ by more (radians) lie on each other, unless those of the shape do too.
 constexpr double fold = 2.9;
 
 std::size_t wanted_triangles(const Surface& surface, const MeshOptions& options) {
     if (options.sizing == MeshOptions::Sizing::triangles) return static_cast<std::size_t>(options.triangles);
-    // Twice the equilateral ones of that size, since curved places and edges get smaller ones.
+    // Twice the number of equilateral triangles of that size, since curved places and edges get smaller ones.
     const double count = 2.0 * surface_area(surface) / (std::sqrt(3.0) / 4.0 * options.size * options.size);
     return static_cast<std::size_t>(std::min(count, 1e9));
 }
@@ -52,7 +48,7 @@ bool is_sound(const Surface& surface) {
     }
 }
 
-// The surface that meshing starts from: reduced, step by step, as far as the shape stays.
+// Returns the surface that meshing starts from: reduced in steps as long as it keeps the shape.
 Surface base_of(const Surface& flat, const MeshOptions& options,
                 const std::function<void(double)>& progress) {
     constexpr double most_missed = 0.5;
@@ -74,11 +70,12 @@ Surface base_of(const Surface& flat, const MeshOptions& options,
     return last_sound;
 }
 
-// The surface of order 1 with edge nodes on the shape, where its order asks for them. Where a triangle turns
-// over, its nodes are put over the middles of their edges; where that does not help, its edges stay straight.
+// Adds edge nodes on the shape to a surface of order 1, where the order asks for them. Where a triangle is
+// overturned, its nodes are put over the middles of their edges; where that does not help, its edges stay
+// straight.
 Surface with_nodes_on(const SmoothShape& shape, const Surface& surface, int order) {
     if (order == 1) return surface;
-    constexpr double most_bent = 0.3;  // over the edge's length
+    constexpr double most_bent = 0.3;  // relative to the edge's length
     Surface result = with_straight_edge_nodes(surface);
     const std::vector<EdgeUse> uses = edge_uses(surface);
     const auto edges = edges_of(uses);
@@ -106,9 +103,9 @@ Surface with_nodes_on(const SmoothShape& shape, const Surface& surface, int orde
                                       {across(edge.front()), across(edge.back())}, lifted);
         }
         if (!moved) moved = lifted(middle);
-        const bool believed = moved && (*moved - middle).norm() < most_bent * length;
+        const bool is_near = moved && (*moved - middle).norm() < most_bent * length;
         const std::int32_t index = result.edge_nodes[triangle][static_cast<std::size_t>(use.side)];
-        result.vertices[static_cast<std::size_t>(index)] = believed ? *moved : middle;
+        result.vertices[static_cast<std::size_t>(index)] = is_near ? *moved : middle;
     };
     for (const auto& edge : edges) place_node(edge, true);
     std::vector<bool> overturned(surface.triangle_count(), false);
@@ -123,8 +120,8 @@ Surface with_nodes_on(const SmoothShape& shape, const Surface& surface, int orde
     return order == automatic_order && has_straight_edges(result) ? surface : result;
 }
 
-// The largest angle (radians) by which two flat triangles turn at an edge.
-double sharpest_turn(const Surface& surface) {
+// Returns the largest angle (radians) between the normals of two flat triangles at an edge.
+double sharpest_angle(const Surface& surface) {
     double sharpest = 0.0;
     const std::vector<EdgeUse> uses = edge_uses(surface);
     for (const auto& edge : edges_of(uses)) {
@@ -135,13 +132,13 @@ double sharpest_turn(const Surface& surface) {
     return sharpest;
 }
 
-// Attempts at one shape, and the best of them.
+// Collects attempts to mesh one shape and keeps the best.
 class Attempts {
   public:
     Attempts(const Surface& flat, const Smoothing& smoothing, const std::string& label)
-        : flat_(flat), smoothing_(smoothing), label_(label), sharpest_turn_(1.01 * sharpest_turn(flat)) {}
+        : flat_(flat), smoothing_(smoothing), label_(label), sharpest_angle_(1.01 * sharpest_angle(flat)) {}
 
-    // Whether the surface is sound and holds the shape; the one that misses it least is kept.
+    // Whether the surface is sound and keeps the shape; the surface that misses it least is stored.
     bool holds(Surface result) {
         try {
             require_sound_surface(result);
@@ -149,7 +146,7 @@ class Attempts {
             if (error_.empty()) error_ = reason.what();
             return false;
         }
-        if (sharpest_turn(result) > std::max(fold, sharpest_turn_)) {
+        if (sharpest_angle(result) > std::max(fold, sharpest_angle_)) {
             if (error_.empty()) error_ = "the surface folds onto itself; ";
             return false;
         }
@@ -168,7 +165,8 @@ class Attempts {
     [[nodiscard]] bool any_holds() const { return smallest_miss_ <= 1.0; }
     [[nodiscard]] const MeshedShape& best() const { return *best_; }
 
-    // What nothing sound was found for: the remedies for a file's own faults do not help here.
+    // Returns the error for a shape without a sound mesh. The remedy that the check proposes is dropped,
+    // since it is for errors of the file.
     [[nodiscard]] Error unsound(const char* remedy) const {
         return Error(
             fmt::format("{}: {} after remeshing; {}", label_, error_.substr(0, error_.rfind("; ")), remedy));
@@ -178,7 +176,7 @@ class Attempts {
     const Surface& flat_;
     Smoothing smoothing_;
     const std::string& label_;
-    double sharpest_turn_;
+    double sharpest_angle_;
     std::optional<MeshedShape> best_;
     std::string error_;
     double smallest_miss_ = std::numeric_limits<double>::infinity();
@@ -189,18 +187,19 @@ class Attempts {
 MeshedShape remesh(const Surface& surface, const MeshOptions& options, const std::string& label,
                    const std::function<void(double)>& progress) {
     constexpr double share_of_reduction = 0.7;
-    // Attempts that are made anew do not take the work back.
-    double told = 0.0;
+    // Repeated attempts do not lower the progress.
+    double reported = 0.0;
     const auto tell = [&](double share) {
-        told = std::max(told, share);
-        if (progress) progress(told);
+        reported = std::max(reported, share);
+        if (progress) progress(reported);
     };
     const Surface flat =
         surface.order() == 1 ? surface : labelled(label, [&] { return welded(flattened(surface, 2)); });
     const Surface base = base_of(flat, options, [&](double share) { tell(share_of_reduction * share); });
     const MeshSizeField field(base);
     Attempts attempts(flat, smoothing_of(flat), label);
-    // Thin bodies with shallow folds need the second as edges; on coarse curved ones it keeps every facet.
+    // The second angle is for thin bodies with shallow folds; on coarse curved ones it would keep every
+    // facet.
     constexpr std::array<double, 2> crease_angles = {sharp_angle, sharp_angle / 4.0};
     const bool may_be_flat = options.order == automatic_order;
     const auto attempt = [&](int finer) {
@@ -216,7 +215,7 @@ MeshedShape remesh(const Surface& surface, const MeshOptions& options, const std
             if (attempts.holds(with_nodes_on(shape, flat_result, options.order))) return true;
             if (may_be_flat) flat_results.push_back(std::move(flat_result));
         }
-        // Long triangles along a needle or around a rim show the shape where even ones cannot.
+        // Long triangles along a needle or around a rim resolve the shape where even ones cannot.
         const SmoothShape shape(flat, sharp_angle);
         Surface long_ones = reduced(flat, wanted_triangles(flat, sizes));
         if (attempts.holds(with_nodes_on(shape, long_ones, options.order))) return true;

@@ -1,5 +1,3 @@
-#include "meshes/remeshing/remeshed_surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,28 +7,31 @@
 #include <Eigen/Geometry>
 
 #include "meshes/checks/triangle_fans.hpp"
+#include "meshes/remeshing/mesh_size_field.hpp"
+#include "meshes/remeshing/remesh.hpp"
+#include "meshes/remeshing/smooth_shape.hpp"
 #include "samara/core/base/as_index.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {
 
-// Beyond 4/3 and below 4/5 of the wanted length a split, or drawing together, brings sides nearer to it
+// Beyond 4/3 and below 4/5 of the wanted length, a split or a collapse brings sides nearer to it
 // (Botsch & Kobbelt, A Remeshing Approach to Multiresolution Modeling, 2004). The other numbers are chosen.
-constexpr double longest = 4.0 / 3.0;   // of the wanted length: longer sides are split
-constexpr double shortest = 4.0 / 5.0;  // shorter ones are drawn together
+constexpr double longest = 4.0 / 3.0;   // relative to the wanted length: longer sides are split
+constexpr double shortest = 4.0 / 5.0;  // shorter ones are collapsed
 constexpr double least_cosine = 0.3;    // between a triangle's normals before and after a change
 constexpr double least_quality = 0.15;  // 1: equilateral
 constexpr double good_count = 0.03;     // relative: nearer to the wanted count needs no further round
-constexpr double coarsest = 1.2;        // over the size by which the count would be met without edges
+constexpr double coarsest = 1.2;  // relative to the size that would give the wanted number without edges
 constexpr int least_rounds = 8;
 constexpr int most_rounds = 24;
 constexpr int most_passes = 12;
 
-class Evening {
+class Remeshing {
   public:
-    Evening(const Surface& start, const SmoothShape& shape, const MeshSizeField& field, double size,
-            double crease_angle)
+    Remeshing(const Surface& start, const SmoothShape& shape, const MeshSizeField& field, double size,
+              double crease_angle)
         : fans_(start.vertices, start.corners),
           shape_(shape),
           field_(field),
@@ -40,11 +41,12 @@ class Evening {
         refresh();
     }
 
-    // Up to `most`: triangles that follow edges and rims count too, and must not use up those of the rest.
+    // Scales the wanted size, up to `most`: triangles along edges and rims count too, and must not use up the
+    // number for the rest.
     void scale_size(double factor, double most) { size_ = std::min(size_ * factor, most); }
     [[nodiscard]] std::size_t triangle_count() const { return fans_.triangles.size(); }
 
-    // Splits sides of different triangles; whether there were any.
+    // Splits long sides, one for each triangle at most; returns whether there were any.
     bool split_long_sides() {
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -71,7 +73,7 @@ class Evening {
         return !order.empty();
     }
 
-    // Draws sides that do not touch together; whether there were any.
+    // Collapses short sides that are no neighbours; returns whether there were any.
     bool collapse_short_edges() {
         const std::size_t before = triangle_count();
         std::vector<std::pair<double, std::size_t>> order;
@@ -82,10 +84,10 @@ class Evening {
         for (const auto& [ratio, e] : order) {
             const Edge& edge = edges_[e];
             if (fans_.is_locked(edge.a) || fans_.is_locked(edge.b)) continue;
-            if (can_draw(edge, edge.a, edge.b)) {
-                fans_.draw_into(as_index(edge.a), edge.b);
-            } else if (can_draw(edge, edge.b, edge.a)) {
-                fans_.draw_into(as_index(edge.b), edge.a);
+            if (can_collapse(edge, edge.a, edge.b)) {
+                fans_.collapse_into(as_index(edge.a), edge.b);
+            } else if (can_collapse(edge, edge.b, edge.a)) {
+                fans_.collapse_into(as_index(edge.b), edge.a);
             }
         }
         refresh();
@@ -138,7 +140,7 @@ class Evening {
         std::array<std::int32_t, 2> triangles{};
         std::array<std::int32_t, 2> sides{};
         bool crease = false;
-        double ratio = 1.0;  // of the length to the wanted one
+        double ratio = 1.0;  // length relative to the wanted one
     };
     struct CreaseEnds {
         int count = 0;  // 0: smooth; 2: on a crease; else a corner
@@ -146,7 +148,7 @@ class Evening {
     };
 
     void measure_sizes() {
-        constexpr double moved = 0.05;  // over the wanted length: the size hardly changes
+        constexpr double moved = 0.05;  // relative to the wanted length: within it the size hardly changes
         const std::size_t known = measured_at_.size();
         sizes_.resize(fans_.vertices.size());
         measured_at_.resize(fans_.vertices.size());
@@ -172,7 +174,7 @@ class Evening {
             const Vector3d first = fans_.area_vector_of(fans_.triangles[as_index(one.triangle)]);
             const Vector3d second = fans_.area_vector_of(fans_.triangles[as_index(two.triangle)]);
             const Vector3d along = fans_.vertex(one.high) - fans_.vertex(one.low);
-            // Slivers of a reduced surface may turn by as much where the shape is smooth.
+            // The normals of slivers of a reduced surface may differ as much where the shape is smooth.
             edge.crease = first.dot(second) < crease_cosine_ * first.norm() * second.norm() &&
                           shape_.is_near_crease(fans_.vertex(one.low) + 0.5 * along, 0.3 * along.norm());
             edge.ratio =
@@ -191,9 +193,9 @@ class Evening {
         ++ends.count;
     }
 
-    // The middle of the edge, on the shape.
+    // Returns the middle of the edge, moved onto the shape.
     [[nodiscard]] Vector3d middle_of(const Edge& edge) const {
-        constexpr double most_bent = 0.3;  // over the edge's length
+        constexpr double most_bent = 0.3;  // relative to the edge's length
         const Vector3d along = fans_.vertex(edge.b) - fans_.vertex(edge.a);
         const Vector3d middle = fans_.vertex(edge.a) + 0.5 * along;
         std::optional<Vector3d> place;
@@ -208,7 +210,8 @@ class Evening {
         return place && (*place - middle).norm() < most_bent * along.norm() ? *place : middle;
     }
 
-    // The middle on the shape, unless a half of a triangle would turn over: then that of the straight edge.
+    // Returns the middle on the shape, or that of the straight edge where half a triangle would be
+    // overturned.
     [[nodiscard]] Vector3d middle_for_split(const Edge& edge) const {
         const Vector3d middle = middle_of(edge);
         for (std::size_t i = 0; i < 2; ++i) {
@@ -227,7 +230,7 @@ class Evening {
         return middle;
     }
 
-    // On a crease that runs on through the vertex.
+    // Whether the vertex lies on a crease that continues through it.
     [[nodiscard]] bool is_along_crease(std::size_t v) const {
         const CreaseEnds& ends = creases_[v];
         if (ends.count != 2) return false;
@@ -236,7 +239,7 @@ class Evening {
         return before.dot(after) > crease_cosine_ * before.norm() * after.norm();
     }
 
-    [[nodiscard]] bool can_draw(const Edge& edge, std::int32_t v, std::int32_t target) {
+    [[nodiscard]] bool can_collapse(const Edge& edge, std::int32_t v, std::int32_t target) {
         const std::size_t from = as_index(v);
         if (fans_.is_hub(from)) return false;
         if (creases_[from].count > 0 && (!edge.crease || !is_along_crease(from))) return false;
@@ -249,7 +252,7 @@ class Evening {
             const double wanted = 0.5 * size_ * (sizes_[as_index(vertex)] + sizes_[as_index(target)]);
             if (length > longest * wanted) return false;
         }
-        // A thin rim's triangles become longer slivers, which is what is wanted there.
+        // The triangles of a thin rim may become longer slivers.
         const double of_worst = edge.crease ? 0.25 : 1.0;
         return fans_.keeps_shape(from, target, least_cosine,
                                  std::min(least_quality, of_worst * fans_.worst_quality(from)));
@@ -262,7 +265,7 @@ class Evening {
         return {corner(0), corner(1)};
     }
 
-    // Its triangle i with the end of the edge replaced by the other triangle's tip.
+    // Returns triangle i of the edge with an end of the edge replaced by the other triangle's tip.
     [[nodiscard]] TriangleFans::Triangle flipped(const Edge& edge, std::size_t i, std::int32_t tip) const {
         TriangleFans::Triangle triangle = fans_.triangles[as_index(edge.triangles[i])];
         triangle[as_index(edge.sides[i] + 1) % 3] = tip;
@@ -315,7 +318,7 @@ class Evening {
                 size += sizes_[as_index(corner)] / 3.0;
                 centroid += fans_.vertex(corner) / 3.0;
             }
-            // The density whose centroidal Voronoi cells have the wanted sizes.
+            // Weights by the density whose centroidal Voronoi cells have the wanted sizes.
             const double mass = area.norm() / (size * size * size * size);
             middle += mass * centroid;
             normal += area;
@@ -343,7 +346,7 @@ class Evening {
         const auto [c, d] = opposite(edge);
         return fans_.is_locked(edge.a) || fans_.is_locked(edge.b) || fans_.is_locked(c) || fans_.is_locked(d);
     }
-    // Before the next gather: new vertices are not among those that can be locked.
+    // Vertices added since the last gather have no lock yet.
     void lock_around(const Edge& edge) {
         for (const std::int32_t t : edge.triangles) {
             for (const std::int32_t corner : fans_.triangles[as_index(t)]) {
@@ -359,7 +362,7 @@ class Evening {
     const MeshSizeField& field_;
     double size_;
     double crease_cosine_;
-    std::vector<double> sizes_;  // relative, at each vertex
+    std::vector<double> sizes_;  // relative size at each vertex
     std::vector<Vector3d> measured_at_;
     std::vector<Edge> edges_;
     std::vector<CreaseEnds> creases_;
@@ -377,22 +380,22 @@ Surface remeshed(const Surface& start, const SmoothShape& shape, const MeshSizeF
         by_count ? std::sqrt(1.1 * field.triangle_count(1.0) / options.triangles) : options.size;
     const double most_size =
         options.as_many_as_needed ? coarsest * size : std::numeric_limits<double>::infinity();
-    Evening evening(start, shape, field, size, crease_angle);
+    Remeshing remeshing(start, shape, field, size, crease_angle);
     for (int round = 0; round < most_rounds; ++round) {
-        const double ratio = static_cast<double>(evening.triangle_count()) / options.triangles;
+        const double ratio = static_cast<double>(remeshing.triangle_count()) / options.triangles;
         const bool good = !by_count || std::abs(ratio - 1.0) < good_count;
         if (round >= least_rounds && good) break;
-        if (by_count && round >= 2) evening.scale_size(std::pow(ratio, round < 8 ? 0.5 : 0.25), most_size);
-        for (int pass = 0; pass < most_passes && evening.split_long_sides(); ++pass) {
+        if (by_count && round >= 2) remeshing.scale_size(std::pow(ratio, round < 8 ? 0.5 : 0.25), most_size);
+        for (int pass = 0; pass < most_passes && remeshing.split_long_sides(); ++pass) {
         }
-        for (int pass = 0; pass < most_passes && evening.collapse_short_edges(); ++pass) {
+        for (int pass = 0; pass < most_passes && remeshing.collapse_short_edges(); ++pass) {
         }
-        evening.flip_sides();
-        evening.relax();
+        remeshing.flip_sides();
+        remeshing.relax();
         if (progress) progress((round + 1.0) / most_rounds);
     }
-    evening.flip_sides();
-    return evening.result();
+    remeshing.flip_sides();
+    return remeshing.result();
 }
 
 }  // namespace samara

@@ -31,7 +31,7 @@ std::vector<Triangle> crease_segments(const Surface& flat, double crease_angle) 
     return segments;
 }
 
-// Barycentric coordinates of a point of the triangle.
+// Returns the barycentric coordinates of a point of the triangle.
 Vector3d weights_in(const TriangleTree& tree, std::size_t triangle, const Vector3d& point) {
     const Vector3d& a = tree.corner(triangle, 0);
     const Vector3d ab = tree.corner(triangle, 1) - a;
@@ -86,15 +86,15 @@ void SmoothShape::gather_crease_neighbours() {
     }
 }
 
-// The unit normal of the smooth side of the triangle's corner.
+// Returns the unit normal of the smooth surface at the triangle's corner, on its side of any crease.
 const Vector3d& SmoothShape::normal_at(std::size_t triangle, std::size_t corner) const {
     const std::size_t vertex = as_index(flat_.corners[triangle][corner]);
     if (!has_normals_[vertex]) find_normals(vertex);
     return normals_[3 * triangle + corner];
 }
 
-// Finds the normals of all corners at the vertex at once: the triangles around it, in their order, fall into
-// sides between creases.
+// Finds the normals of all corners at the vertex: creases divide the ordered triangles around it into sides,
+// each with one normal.
 void SmoothShape::find_normals(std::size_t vertex) const {
     struct Corner {
         std::size_t triangle;
@@ -124,7 +124,7 @@ void SmoothShape::find_normals(std::size_t vertex) const {
         const Vector3d& second = fan[two].area;
         return first.dot(second) >= least_smooth_cosine_ * first.norm() * second.norm();
     };
-    // The order around the vertex; from behind a crease, where there is one.
+    // The triangles in order around the vertex, starting behind a crease where there is one.
     std::vector<std::size_t> order;
     std::vector<bool> begins_side;
     std::size_t start = 0;
@@ -168,7 +168,8 @@ void SmoothShape::find_normals(std::size_t vertex) const {
     has_normals_[vertex] = true;
 }
 
-// The normal of the quadratic surface through the vertex that fits its neighbours best; `normal` is near it.
+// Returns the normal of the quadratic surface through the vertex that fits its neighbours best; `normal` is
+// an approximation.
 Vector3d SmoothShape::fitted_normal(const std::vector<std::size_t>& around, std::size_t vertex,
                                     const Vector3d& normal) const {
     const Vector3d x = normal.unitOrthogonal();
@@ -190,13 +191,13 @@ Vector3d SmoothShape::fitted_normal(const std::vector<std::size_t>& around, std:
     }
     const Eigen::Matrix<double, 5, 1> fit = terms.colPivHouseholderQr().solve(heights);
     const Vector3d fitted = (normal - fit[0] * x - fit[1] * y).normalized();
-    // Noise, or neighbours on a conic.
+    // The fit is not trusted where the neighbours are noisy or lie on a conic.
     constexpr double least_cosine = 0.95;
     return fitted.dot(normal) > least_cosine ? fitted : normal;
 }
 
-// The unit tangent of the crease at an end of the segment: of the circle through its neighbours; along the
-// segment where creases meet, end or bend.
+// Returns the unit tangent of the crease at an end of the segment: that of the circle through its neighbours,
+// or along the segment where creases join, end or bend.
 Vector3d SmoothShape::tangent_at(std::size_t segment, int end) const {
     const Vector3d& here = creases_.corner(segment, end);
     const Vector3d along = (creases_.corner(segment, 1 - end) - here).normalized();
@@ -237,6 +238,115 @@ std::optional<Vector3d> SmoothShape::on_crease(const Vector3d& point, double bou
         lifted += 0.5 * (end == 0 ? 1.0 - place : place) * off;
     }
     return lifted;
+}
+
+namespace {
+
+constexpr int samples = 9;                 // sampled points of the surface, besides the ends
+constexpr double weight_of_ends = 10.0;    // the heights of the ends are exact
+constexpr double weight_of_middle = 0.01;  // where the surface is flat, the normals do not determine the node
+constexpr int most_steps = 5;
+constexpr int steps_to_place = 2;
+constexpr double most_astray = 0.25;   // distance from the chord's middle, relative to its length
+constexpr double least_change = 1e-6;  // between the normals at the ends
+
+/// The surface as a cubic height function over the edge, which lies from (-1/2, 0) to (1/2, 0). The y^3 term
+/// is left out, since it would rotate all normals alike.
+struct Height {
+    static constexpr int terms = 9;
+    Eigen::Matrix<double, terms, 1> coefficients;
+
+    static Eigen::Matrix<double, 1, terms> monomials(double x, double y) {
+        Eigen::Matrix<double, 1, terms> row;
+        row << 1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y;
+        return row;
+    }
+    [[nodiscard]] Eigen::Vector2d slope(double x, double y) const {
+        const auto& c = coefficients;
+        return {c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * c[6] * x * x + 2.0 * c[7] * x * y + c[8] * y * y,
+                c[2] + c[4] * x + 2.0 * c[5] * y + c[7] * x * x + 2.0 * c[8] * x * y};
+    }
+    [[nodiscard]] Eigen::Matrix2d bend(double x, double y) const {
+        const auto& c = coefficients;
+        const double mixed = c[4] + 2.0 * c[7] * x + 2.0 * c[8] * y;
+        return (Eigen::Matrix2d() << 2.0 * c[3] + 6.0 * c[6] * x + 2.0 * c[7] * y, mixed, mixed,
+                2.0 * c[5] + 2.0 * c[8] * x)
+            .finished();
+    }
+};
+
+/// Gauss-Newton iteration from the middle. A normal lies between those at the ends where its slope is on the
+/// line through theirs.
+std::optional<Eigen::Vector2d> place_of_middle(const Height& height) {
+    const Eigen::Vector2d first = height.slope(-0.5, 0.0);
+    const Eigen::Vector2d change = height.slope(0.5, 0.0) - first;
+    Eigen::Vector2d across(-change.y(), change.x());
+    across = change.norm() > least_change ? Eigen::Vector2d(across / change.norm()) : Eigen::Vector2d::Zero();
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+    for (int step = 0; step < most_steps; ++step) {
+        const Eigen::Vector2d slope = height.slope(place.x(), place.y());
+        const Eigen::Matrix2d bend = height.bend(place.x(), place.y());
+        Eigen::Matrix<double, 4, 2> jacobian;
+        jacobian << bend.row(0), across.transpose() * bend, weight_of_middle * Eigen::Matrix2d::Identity();
+        Eigen::Vector4d residual;
+        residual << slope.x(), across.dot(slope - first), weight_of_middle * place;
+        const Eigen::Matrix2d normal_matrix = jacobian.transpose() * jacobian;
+        place -= normal_matrix.inverse() * (jacobian.transpose() * residual);
+        if (!(place.norm() < most_astray)) return std::nullopt;
+    }
+    return place;
+}
+
+}  // namespace
+
+std::optional<Vector3d> middle_on_surface(const std::array<Vector3d, 2>& ends,
+                                          const std::array<Vector3d, 2>& across, const LiftedPoint& lifted) {
+    const Vector3d middle = 0.5 * (ends[0] + ends[1]);
+    const double length = (ends[1] - ends[0]).norm();
+    const Vector3d x = (ends[1] - ends[0]) / length;
+    // The sum of the area vectors of the triangles on both sides.
+    const Vector3d area = x.cross(across[0] - middle) - x.cross(across[1] - middle);
+    const Vector3d z = area.normalized();
+    const Vector3d y = z.cross(x);
+    const double breadth = 0.5 * area.norm() / length;
+    if (!(breadth > 0.0)) return std::nullopt;
+
+    Eigen::Matrix<double, samples + 2, Height::terms> rows;
+    Eigen::Matrix<double, samples + 2, 1> heights;
+    const auto keep = [&](int i, const Vector3d& point, double weight) {
+        const Vector3d arm = (point - middle) / length;
+        rows.row(i) = weight * Height::monomials(arm.dot(x), arm.dot(y) / breadth);
+        heights[i] = weight * arm.dot(z);
+    };
+    keep(samples, ends[0], weight_of_ends);
+    keep(samples + 1, ends[1], weight_of_ends);
+    int i = 0;
+    for (const double along : {0.3, 0.5, 0.7}) {
+        const Vector3d on_edge = ends[0] + along * (ends[1] - ends[0]);
+        for (const Vector3d& start : {on_edge, Vector3d(on_edge + 0.25 * (across[0] - on_edge)),
+                                      Vector3d(on_edge + 0.25 * (across[1] - on_edge))}) {
+            const std::optional<Vector3d> point = lifted(start);
+            if (!point) return std::nullopt;
+            keep(i++, *point, 1.0);
+        }
+    }
+    Height height;
+    height.coefficients = rows.colPivHouseholderQr().solve(heights);
+    // Rescaled from units of the breadth.
+    height.coefficients.array() /= Eigen::Array<double, Height::terms, 1>{
+        1.0, 1.0, breadth, 1.0, breadth, breadth * breadth, 1.0, breadth, breadth * breadth};
+    const std::optional<Eigen::Vector2d> place = place_of_middle(height);
+    if (!place) return std::nullopt;
+    // `lifted` need not project along z, so the start is corrected.
+    const Vector3d wanted = middle + length * (place->x() * x + place->y() * y);
+    std::optional<Vector3d> found = lifted(wanted);
+    Vector3d start = wanted;
+    for (int step = 0; found && step < steps_to_place; ++step) {
+        const Vector3d off = wanted - *found;
+        start += off - off.dot(z) * z;
+        found = lifted(start);
+    }
+    return found;
 }
 
 }  // namespace samara

@@ -17,8 +17,8 @@ constexpr double points_over_the_area = 2000.0;
 constexpr double coarsest = 0.05;
 constexpr int subdivisions_of_curved_triangles = 4;
 
-// How far flat triangles may lie within the curved surface that they stand for (m). On a sphere, equilateral
-// triangles of the height h whose neighbours turn by the angle lie h * angle / 3 deep; a fifth more covers
+// Estimates how far flat triangles lie within the curved surface that they approximate (m). On a sphere,
+// equilateral triangles of height h with the angle a between neighbours lie h a / 3 deep; a fifth more covers
 // uneven ones.
 double sagitta(const Surface& surface) {
     std::vector<double> depths;
@@ -36,7 +36,7 @@ double sagitta(const Surface& surface) {
         depths.push_back(height * angle / 2.5);
     }
     if (depths.empty()) return 0.0;
-    // Not the largest: a single dent would make the whole comparison blind.
+    // Not the largest, since a single dent would make the comparison insensitive.
     const auto place =
         depths.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(depths.size()));
     std::nth_element(depths.begin(), place, depths.end());
@@ -68,7 +68,7 @@ std::vector<Vector3d> points_of(const Surface& surface, const Vector3d& centre) 
             v = std::fmod(v + 0.5698402909980532, 1.0);
         }
     }
-    // In mixed order an image that does not fit is found out early. std::shuffle differs between libraries.
+    // In random order an image that does not fit is detected early. std::shuffle differs between libraries.
     std::mt19937 generator(1);
     for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[generator() % i]);
     if (points.size() > most_points) points.resize(most_points);

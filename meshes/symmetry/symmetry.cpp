@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "meshes/symmetry/image_comparison.hpp"
-#include "meshes/symmetry/symmetry_frame.hpp"
 #include "meshes/symmetry/symmetry_group.hpp"
 #include "samara/core/base/symmetric_matrix.hpp"
 
@@ -26,7 +25,7 @@ constexpr std::size_t most_directions = 28;
 // Eigenvalues within this many tolerances (relative) count as one: they vary as the square of lengths.
 constexpr double degenerate = 4.0;
 
-// A direction near a shape's axis is that axis, if the body agrees.
+// Returns the coordinate axis of the shape that is nearest to the direction.
 Vector3d nearest_shape_axis(const Vector3d& direction) {
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
@@ -37,11 +36,11 @@ bool is_near(const Vector3d& a, const Vector3d& b) {
     return std::abs(a.dot(b)) > 0.995;
 }
 
-// Angles that no finite rotation group of low order has in common.
+// Tests rotations by angles that no finite rotation group of low order contains.
 bool is_axis_of_revolution(const ImageComparison& images, const Vector3d& axis) {
-    constexpr std::array<double, 5> turns = {0.381966, 0.145898, 0.072949, 0.031415, 0.267949};
-    return std::all_of(turns.begin(), turns.end(), [&](double turn) {
-        return images.is_symmetry(Operation{axis, 2.0 * pi * turn, false}.matrix());
+    constexpr std::array<double, 5> fractions = {0.381966, 0.145898, 0.072949, 0.031415, 0.267949};
+    return std::all_of(fractions.begin(), fractions.end(), [&](double fraction) {
+        return images.is_symmetry(Operation{axis, 2.0 * pi * fraction, false}.matrix());
     });
 }
 
@@ -51,7 +50,8 @@ bool is_spherical(const ImageComparison& images) {
            is_axis_of_revolution(images, Vector3d(1.0, 1.0, 1.0).normalized());
 }
 
-// The axis of revolution among the directions, as a shape's axis where it is one.
+// Returns the axis of revolution among the directions, exactly a coordinate axis of the shape where it is
+// near one.
 std::optional<Vector3d> axis_of_revolution(const ImageComparison& images,
                                            const std::vector<Vector3d>& directions) {
     for (const Vector3d& direction : directions) {
@@ -80,8 +80,8 @@ Symmetry axial_symmetry(const ImageComparison& images, const Vector3d& axis) {
     return symmetry;
 }
 
-// Rotations, rotoreflections and mirrors of the orders 2 to `highest` about the direction, the highest first:
-// the lower ones are often their powers.
+// Adds rotations, rotoreflections and mirrors of the orders 2 to `highest` about the direction, the highest
+// first, since the lower ones are often powers of these.
 void add_operations_about(SymmetryGroup& group, const Vector3d& direction, int highest) {
     for (int order = highest; order >= 2; --order) {
         group.add_refined({direction, 2.0 * pi / order, false});
@@ -89,7 +89,8 @@ void add_operations_about(SymmetryGroup& group, const Vector3d& direction, int h
     }
 }
 
-// Mirrors and half turns whose axes lie across the body's one axis, at any angle about it.
+// Adds mirrors and rotations by 180 degrees whose axes are perpendicular to the body's one axis, at any angle
+// about it.
 void add_operations_across(SymmetryGroup& group, const ImageComparison& images, const Vector3d& axis) {
     constexpr int steps = 120;
     constexpr std::size_t points = 100;
@@ -127,9 +128,8 @@ double integer_power(double base, int exponent) {
     return result;
 }
 
-// Directions d where the sum of (x . d)^power over the points is largest or smallest: the axes of a
-// polyhedral group are among them. Shifted power iteration: Kolda and Mayo, SIAM J. Matrix Anal. Appl. 32(4),
-// 2011.
+// Adds directions d where the sum of (x . d)^power over the points has an extremum: the axes of a polyhedral
+// group are among them. Shifted power iteration: Kolda and Mayo, SIAM J. Matrix Anal. Appl. 32(4), 2011.
 void add_extremal_directions(std::vector<Vector3d>& directions, const std::vector<Vector3d>& points,
                              int power) {
     constexpr int starts = 24;
@@ -137,7 +137,7 @@ void add_extremal_directions(std::vector<Vector3d>& directions, const std::vecto
     double scale = 0.0;
     for (const Vector3d& x : points) scale += integer_power(x.norm(), power);
     for (int start = 0; start < starts; ++start) {
-        // A Fibonacci spiral over the half sphere.
+        // The starts lie on a Fibonacci spiral over the half sphere.
         const double height = (start + 0.5) / starts;
         const double azimuth = 2.399963229728653 * start;
         const double radius = std::sqrt(1.0 - height * height);
@@ -156,14 +156,14 @@ void add_extremal_directions(std::vector<Vector3d>& directions, const std::vecto
     }
 }
 
-// For bodies whose second moments single out no axis.
+// Returns candidate axes for bodies whose second moments single out no axis.
 std::vector<Vector3d> polyhedral_directions(const ImageComparison& images) {
     const std::size_t count = std::min<std::size_t>(images.points().size(), 1000);
     const std::vector<Vector3d> points(images.points().begin(),
                                        images.points().begin() + static_cast<std::ptrdiff_t>(count));
     std::vector<Vector3d> directions = {Vector3d::UnitZ(), Vector3d::UnitX(), Vector3d::UnitY()};
     for (const int power : {3, 4, 6}) add_extremal_directions(directions, points, power);
-    // A polyhedral group has few; nearly round bodies many that mean nothing.
+    // A polyhedral group has few axes; nearly round bodies have many irrelevant extrema.
     directions.resize(std::min(directions.size(), most_directions));
     return directions;
 }
@@ -187,8 +187,8 @@ void add_polyhedral_operations(SymmetryGroup& group, std::vector<Vector3d> direc
     }
 }
 
-// The columns of `directions`: what the second moments single out. `free_axis`: the index of the one that is
-// singled out where the other two could be anywhere across it, 3 where none is, -1 where all three are.
+// The principal directions of the second moments, as columns. `free_axis`: the index of the one that is
+// unique where the other two may be any perpendicular pair, 3 where none is unique, -1 where all three are.
 struct PrincipalDirections {
     Matrix3d directions;
     int free_axis = -1;
@@ -209,11 +209,11 @@ PrincipalDirections principal_directions(const VolumeMoments& moments, double to
 Symmetry finite_symmetry(const ImageComparison& images, const PrincipalDirections& principal,
                          const std::vector<Vector3d>& directions) {
     SymmetryGroup group(images);
-    // First, so that bodies aligned with their axes get exact elements.
+    // Signed permutations first, so that bodies aligned with their axes get exact elements.
     for (const Matrix3d& element : signed_permutations()) group.add(element);
     group.add(-Matrix3d::Identity());
     if (principal.free_axis == 3) {
-        // The cube's group is a part of no larger finite one.
+        // The cube's group is a subgroup of no larger finite one.
         if (group.elements().size() < 48) add_polyhedral_operations(group, directions);
     } else {
         for (int i = 0; i < 3; ++i) {

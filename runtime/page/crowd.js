@@ -1,13 +1,13 @@
-// All copies of one body: an instanced mesh for those near, and coarser ones for those far.
+// All copies of one body, as instanced meshes of several levels of detail.
 
 import {
     BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, Vector3,
 } from 'three';
 import { poseAt } from './motion.js';
 
-/** The surfaces of a copy: from how many pixels of radius, and of how many triangles at most. */
+/** The levels of detail: the least radius in pixels, and the most triangles. */
 const LEVELS = [{ from: 22, most: Infinity }, { from: 6, most: 320 }, { from: 0, most: 48 }];
-const LEAST_RADIUS = 3.5;  // pixels: what is smaller is drawn larger
+const LEAST_RADIUS = 3.5;  // pixels: smaller copies are drawn larger
 
 export function geometryOf({ points, normals, triangles }) {
     const geometry = new BufferGeometry();
@@ -17,7 +17,7 @@ export function geometryOf({ points, normals, triangles }) {
     return geometry;
 }
 
-/** Numbers keys in the order in which they are met. */
+/** Numbers keys in the order in which they occur. */
 class Numbering {
     constructor() {
         this.numbers = new Map();
@@ -30,8 +30,8 @@ class Numbering {
 }
 
 /**
- * The surface with all points of a cell in their mean. A point's normal keeps its octant, so that the two faces of a
- * thin body stay apart in the light though they may coincide in space.
+ * Returns the surface with the points of each grid cell merged into their mean. Points with normals in different octants
+ * stay separate, so that the two faces of a thin body are lit separately though they may coincide in space.
  */
 function clustered({ points, normals, triangles }, cell) {
     const places = new Numbering();
@@ -74,7 +74,7 @@ function clustered({ points, normals, triangles }, cell) {
     };
 }
 
-/** The body's surface at a level of LEVELS, or the coarsest that still has a shape. */
+/** Returns the body's surface at a level of LEVELS, or the coarsest one that keeps a shape. */
 export function surfaceAt(body, level) {
     const { most } = LEVELS[level];
     let surface = body;
@@ -86,7 +86,7 @@ export function surfaceAt(body, level) {
     return surface;
 }
 
-/** A shade of its own for each copy, so that a crowd is not of one cast. */
+/** Returns a different shade for each copy. */
 function shadesOf(color, copies) {
     const shades = new Float32Array(3 * copies);
     const shade = new Color();
@@ -111,24 +111,24 @@ export class Crowd {
             mesh.frustumCulled = false;
             mesh.castShadow = true;
             mesh.receiveShadow = true;
-            mesh.userData.copies = new Uint32Array(body.copies);  // of each instance
+            mesh.userData.copies = new Uint32Array(body.copies);  // the copy of each instance
             scene.add(mesh);
             return mesh;
         };
         const levels = body.copies > 1 ? LEVELS : LEVELS.slice(0, 1);
         this.meshes = levels.map((_, level) => meshOf(surfaceAt(body, level)));
-        this.slots = new Uint32Array(2 * body.copies);  // of each copy: its level, its instance
+        this.slots = new Uint32Array(2 * body.copies);  // level and instance of each copy
         this.enlarged = false;
     }
 
-    /** Draws one copy in a colour of its own; without one, none. */
+    /** Draws one copy in another colour; without arguments none. */
     paint(copy, color) {
         this.painted = color ? { copy, color: new Color(color) } : null;
     }
 
     /**
-     * Places all copies, a fraction of the way from one frame to the next: linear in position, along the arc in
-     * orientation. `eye`: where the camera is; `focal`: pixels that a metre takes at one metre from it.
+     * Places all copies at a fraction between two frames: positions are interpolated linearly, orientations
+     * spherically. `eye`: place of the camera; `focal`: pixels per metre at a distance of one metre.
      */
     place(frame, next, fraction, eye, focal) {
         const { body } = this;
@@ -168,7 +168,7 @@ export class Crowd {
         });
     }
 
-    /** The pose that is drawn: read from the mesh itself. */
+    /** Returns the drawn pose, read from the mesh. */
     drawnPose(copy) {
         const matrix = new Matrix4();
         this.meshes[this.slots[2 * copy]].getMatrixAt(this.slots[2 * copy + 1], matrix);
@@ -179,7 +179,7 @@ export class Crowd {
     }
 }
 
-/** A place, a turn (x y z w) and a scale as a matrix by columns. */
+/** Writes a place, a rotation (quaternion x y z w) and a scale as a matrix by columns. */
 function writeMatrix(to, at, x, y, z, [i, j, k, w], scale) {
     to[at] = (1 - 2 * (j * j + k * k)) * scale;
     to[at + 1] = 2 * (i * j + k * w) * scale;

@@ -7,7 +7,7 @@ import {
 const SHADOW_PIXELS = 2048;
 const FROM = new Vector3(-0.38, -0.5, 1).normalize();
 
-/** A soft sky, and one key light whose shadows are as fine as what is in view. */
+/** Soft ambient light, and one key light whose shadow map is fitted to the view. */
 export class Light {
     constructor(renderer, scene, size) {
         renderer.shadowMap.enabled = true;
@@ -21,7 +21,7 @@ export class Light {
         scene.add(this.sky, this.key, this.key.target);
     }
 
-    /** Lays the shadows' map around what the camera looks at. */
+    /** Centres the shadow map on the camera's target. */
     aim(target, distance) {
         const { shadow } = this.key;
         const half = Math.min(0.6 * this.size, 0.9 * distance);
@@ -53,7 +53,7 @@ outgoingLight = mix(outgoingLight, lineColor, 0.5 * lines(gridStep) + 0.12 * lin
 diffuseColor.a = 1.0 - smoothstep(0.12, 0.9, far);
 #include <opaque_fragment>`;
 
-/** A level plane with a grid, in the shadows' way, that fades out in the distance. */
+/** A level plane with a grid that receives shadows and fades out in the distance. */
 export class Ground {
     constructor(scene, middle, reach, gridStep) {
         this.uniforms = {

@@ -53,7 +53,7 @@ function choose(body, copy) {
     plots.forEach((plot, i) => plot.show(series[i]));
 }
 
-/** Brings everything to the time shown. */
+/** Updates everything to the shown time. */
 function refresh() {
     stage.show(time, element('follow').checked);
     stage.showTrail(element('trail').checked);
@@ -72,7 +72,7 @@ function scaleText() {
 
 function tick(now) {
     if (playing) {
-        // A page that was hidden, or a machine that is busy, goes on where it was instead of leaping to the end.
+        // After the page was hidden, or the machine was busy, playing continues instead of jumping ahead.
         if (before !== null) seek(time + (speed() * Math.min(now - before, LONGEST_TICK)) / 1000);
         before = now;
         if (time >= end) play(false);
@@ -80,7 +80,7 @@ function tick(now) {
     if (stage.fit() && !stage.handled && !element('follow').checked) stage.showAll();
     stage.controls.update();
     if (stale) refresh();
-    else if (stage.stale) stage.show(time, element('follow').checked);  // what is near is drawn finer
+    else if (stage.stale) stage.show(time, element('follow').checked);  // updates the levels of detail
     if (stage.stale) stage.draw();
     ++ticks;
     requestAnimationFrame(tick);
@@ -175,7 +175,7 @@ choose(0, 0);
 play(!window.matchMedia('(prefers-reduced-motion: reduce)').matches);
 requestAnimationFrame(tick);
 
-/** For scripts and tests: the player by hand. */
+/** Controls of the player for scripts and tests. */
 window.samara = {
     motion,
     play,

@@ -1,9 +1,9 @@
-// The motion in the page: a JSON object in #motion-header, and for each body and obstacle its arrays in base64.
+// Reads the motion in the page: a JSON object in #motion-header, and the arrays of each body and obstacle in base64.
 
-/** Floats of a pose: position (3), quaternion x y z w, descent speed, inclination, angular speed. */
+/** Number of floats of a pose: position (3), quaternion x y z w, descent speed, inclination, angular speed. */
 const FLOATS = 10;
 
-/** Floats of an obstacle's place: position (3), quaternion x y z w; one place where it stands still. */
+/** Number of floats of an obstacle's place: position (3), quaternion x y z w; one place where it stands still. */
 export const PLACE_FLOATS = 7;
 
 /** The measures that follow the pose. `scale` turns SI units into those shown. */
@@ -41,7 +41,7 @@ export function readMotion() {
     return motion;
 }
 
-/** The frame before a time, and the fraction of the way to the next. */
+/** Returns the frame before a time, and the fraction of the interval to the next. */
 export function placeOf(motion, time) {
     const times = motion.times;
     let low = 0;
@@ -56,12 +56,12 @@ export function placeOf(motion, time) {
     return { frame: low, next: high, fraction: Math.min(1, Math.max(0, fraction)) };
 }
 
-/** Where the floats of a pose begin in body.poses. */
+/** Returns the index in body.poses at which the floats of a pose begin. */
 export function poseAt(body, frame, copy) {
     return (frame * body.copies + copy) * FLOATS;
 }
 
-/** A measure (in the unit shown) of one copy at every frame. */
+/** Returns a measure (in the shown unit) of one copy at every frame. */
 export function seriesOf(motion, body, copy, measure) {
     return Float32Array.from(motion.times, (_, frame) =>
         body.poses[poseAt(body, frame, copy) + measure.place] * measure.scale);

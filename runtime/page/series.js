@@ -4,7 +4,7 @@ import { paletteColor } from './palette.js';
 
 const MARGIN = { left: 56, right: 14, top: 26, bottom: 36 };
 
-/** A round step that cuts `range` into at most `most` parts. */
+/** Returns a round step that divides `range` into at most `most` parts. */
 export function roundStep(range, most) {
     const raw = range / most;
     const power = 10 ** Math.floor(Math.log10(raw));
@@ -59,7 +59,7 @@ export class SeriesPlot {
         this.draw();
     }
 
-    /** Lays round values along the axis, as many as there is room for in `height` pixels. */
+    /** Chooses round values for the axis, as many as fit into `height` pixels. */
     scale(height) {
         const { lowest, highest } = this;
         const least = Math.max(1e-3 * Math.max(Math.abs(lowest), Math.abs(highest)), 1e-6);

@@ -1,4 +1,4 @@
-// The bodies in space: z up, metres, one instanced mesh for each body.
+// The three-dimensional view of the bodies: z up, in metres.
 
 import {
     DoubleSide, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, Quaternion, Raycaster,
@@ -16,10 +16,10 @@ import { roundStep } from './series.js';
 
 const TRAIL_FRAMES = 20000;
 const MOST_GHOSTS = 80;
-const LANDMARKS = 1000;  // of one body
+const LANDMARKS = 1000;  // for one body
 const MOST_PIXEL_RATIO = 2;
-const MARKED_BELOW = 9;  // pixels of radius: the chosen body is ringed
-const FOLLOWED_BELOW = 8;  // pixels of radius: a body alone is followed from the start
+const MARKED_BELOW = 9;  // pixels of radius: the chosen body gets a ring
+const FOLLOWED_BELOW = 8;  // pixels of radius: a single body is followed from the start
 
 export class Stage {
     constructor(canvas, motion) {
@@ -62,9 +62,9 @@ export class Stage {
         this.stale = true;
     }
 
-    /** The box that all frames' centres of mass and the bodies around them take. */
+    /** Computes the bounding box of the bodies in all frames. */
     measureSpace() {
-        this.landmarks = [];  // what the first view has in it
+        this.landmarks = [];  // points that the first view contains
         const low = new Vector3(Infinity, Infinity, Infinity);
         const high = new Vector3(-Infinity, -Infinity, -Infinity);
         const point = new Vector3();
@@ -93,7 +93,7 @@ export class Stage {
         this.size = Math.max(low.distanceTo(high), 1e-6);
     }
 
-    /** Widens the box by what of the obstacles is beside or under the bodies. */
+    /** Extends the box by the parts of the obstacles beside or under the bodies. */
     addObstacles(low, high) {
         const room = high.clone().sub(low).multiplyScalar(0.6);
         const least = low.clone().sub(room);
@@ -115,7 +115,7 @@ export class Stage {
         }
     }
 
-    /** Looks at everything from the front, a little from the right and above, as near as all of it is in view. */
+    /** Moves the camera to the front, a little to the right and above, as near as everything is in view. */
     showAll() {
         const { low, high } = this;
         const middle = new Vector3().addVectors(low, high).multiplyScalar(0.5);
@@ -141,7 +141,7 @@ export class Stage {
         this.stale = true;
     }
 
-    /** The box that points take on the screen, from -1 to 1. */
+    /** Returns the bounding box of points on the screen, from -1 to 1. */
     viewOf(points) {
         const low = new Vector3(Infinity, Infinity, Infinity);
         const high = new Vector3(-Infinity, -Infinity, -Infinity);
@@ -154,18 +154,18 @@ export class Stage {
         return { low, high };
     }
 
-    /** Pixels that a metre takes at one metre from the camera. */
+    /** Returns the pixels per metre at one metre from the camera. */
     get focal() {
         return this.renderer.domElement.clientHeight / (2 * Math.tan((this.camera.fov * Math.PI) / 360));
     }
 
-    /** Pixels of the chosen body's radius. */
+    /** Returns the chosen body's radius in pixels. */
     get chosenPixels() {
         const { radius, sizes } = this.motion.bodies[this.chosen.body];
         return (radius * sizes[this.chosen.copy] * this.focal) / this.camera.position.distanceTo(this.place);
     }
 
-    /** Whether a body falls alone and is too small to be seen where all of its way is in view. */
+    /** Whether there is a single body that is too small to be seen with its whole path in view. */
     get isLost() {
         const [body] = this.motion.bodies;
         this.place.fromArray(body.poses, 0);
@@ -200,7 +200,7 @@ export class Stage {
         this.followed = null;
     }
 
-    /** Pale images of the chosen body along its path, a body's length apart. */
+    /** Adds pale images of the chosen body along its path, a body's length apart. */
     layGhosts() {
         const body = this.motion.bodies[this.chosen.body];
         if (this.ghosts) {
@@ -241,7 +241,7 @@ export class Stage {
         this.ghosts.visible = on;
     }
 
-    /** The chosen body's whole path; what is drawn of it ends at the time shown. */
+    /** Adds the chosen body's path; it is drawn up to the shown time. */
     layTrail() {
         const body = this.motion.bodies[this.chosen.body];
         const frames = this.motion.times.length;
@@ -251,14 +251,14 @@ export class Stage {
             const at = poseAt(body, frame, this.chosen.copy);
             points.push(body.poses[at], body.poses[at + 1], body.poses[at + 2]);
         }
-        points.push(0, 0, 0);  // the place at the time shown
+        points.push(0, 0, 0);  // the place at the shown time
         this.trail.geometry.dispose();
         this.trail.geometry = new LineGeometry().setPositions(points);
         this.trailPoints = points;
         this.trailEnd = undefined;
     }
 
-    /** Places all bodies and obstacles as they are at `time`, and what goes with them. */
+    /** Places all bodies and obstacles at `time`, and updates path, ring and camera. */
     show(time, follow) {
         this.time = time;
         const { frame, next, fraction } = placeOf(this.motion, time);
@@ -281,7 +281,7 @@ export class Stage {
         this.stale = true;
     }
 
-    /** Ends the path at the place shown: segment i goes from point i to point i + 1. */
+    /** Ends the path at the shown place: segment i connects the points i and i + 1. */
     endTrail(frame) {
         const { data } = this.trail.geometry.getAttribute('instanceStart');
         const last = Math.floor(frame / this.trailStride);
@@ -296,7 +296,7 @@ export class Stage {
         this.ghosts.count = this.ghostFrames.filter((ghost) => ghost <= frame).length;
     }
 
-    /** Shifts camera and target with the chosen body. */
+    /** Moves camera and target with the chosen body. */
     followPlace(follow) {
         if (!follow) {
             this.followed = null;
@@ -317,7 +317,7 @@ export class Stage {
         this.followed = this.place.clone();
     }
 
-    /** The body and copy at a point of the canvas (CSS pixels), or null. */
+    /** Returns the body and copy at a point of the canvas (CSS pixels), or null. */
     pick(x, y) {
         const canvas = this.renderer.domElement;
         const pointer = new Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight);
@@ -334,7 +334,7 @@ export class Stage {
         return this.crowds.some((crowd) => crowd.enlarged);
     }
 
-    /** Takes the canvas's size and the screen's density; whether either has changed. */
+    /** Applies the canvas's size and the screen's density; returns whether either has changed. */
     fit() {
         const { clientWidth, clientHeight } = this.renderer.domElement;
         const ratio = Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio || 1);
@@ -348,7 +348,7 @@ export class Stage {
         return true;
     }
 
-    /** A ring around the chosen body where it is small. */
+    /** Draws a ring around the chosen body where it is small. */
     mark() {
         const seen = this.place.clone().project(this.camera);
         this.marker.hidden = this.chosenPixels > MARKED_BELOW || Math.abs(seen.z) > 1;

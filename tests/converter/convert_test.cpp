@@ -172,7 +172,7 @@ TEST_F(Convert, LeavesOutAFallWhoseMeshFailed) {
     EXPECT_EQ(conversion.left_out[0].reason, "its mesh mesh_medium could not be made: too few cells");
 }
 
-TEST_F(Convert, RefusesAFallThatIsNeitherSolvedNorFailed) {
+TEST_F(Convert, RejectsAFallThatIsNeitherSolvedNorFailed) {
     plan_falls(folder_, {{{"name", "fall_00"}, {"mesh", "mesh"}}, {{"name", "fall_01"}, {"mesh", "mesh"}}});
     folder_.write("fall_00/failed.json", R"({"reason": "the solver stopped"})");
     EXPECT_EQ(
@@ -181,18 +181,18 @@ TEST_F(Convert, RefusesAFallThatIsNeitherSolvedNorFailed) {
             ": the fall fall_01 is not solved; run 'samara bake' again, which goes on where it stopped");
 }
 
-TEST_F(Convert, RefusesAFallWithTheNameOfACase) {
+TEST_F(Convert, RejectsAFallWithTheNameOfACase) {
     plan_falls(folder_, {{{"name", "case_00"}, {"mesh", "mesh"}}});
     EXPECT_THAT(error(), HasSubstr("plan.json: two cases or falls are named case_00;"));
     plan_falls(folder_, {{{"mesh", "mesh"}}});
-    EXPECT_THAT(error(), HasSubstr("plan.json: an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error(), HasSubstr("plan.json: an entry is missing or of the wrong type"));
 }
 
 std::string state_history(const FallRecord& record) {
     std::string text = "# Motion State\n# Time\tcentreOfRotation\tcentreOfMass\trotation\tvelocity\tomega\n";
     for (const FallSample& sample : record.samples) {
-        // The angles about x, y and z in turn of the principal axes.
-        const Matrix3d axes = sample.turn * record.fall.principal_axes;
+        // The angles of the principal axes about x, y and z, applied in this order.
+        const Matrix3d axes = sample.rotation * record.fall.principal_axes;
         const Vector3d angles(std::atan2(-axes(1, 2), axes(2, 2)),
                               std::asin(std::clamp(axes(0, 2), -1.0, 1.0)),
                               std::atan2(-axes(0, 1), axes(0, 0)));
@@ -250,7 +250,7 @@ TEST(ConvertFalls, IdentifiesTheCoefficientsOfTheFallsThatAreSolved) {
     EXPECT_EQ(conversion.left_out.size(), 1U);
 }
 
-TEST_F(Convert, RefusesWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {
+TEST_F(Convert, RejectsWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {
     for (const std::size_t index : {6U, 7U, 8U, 9U, 0U, 1U, 2U, 3U}) {
         std::filesystem::remove(folder_.case_path(index) / "provenance.json");
         folder_.write(folder_.names()[index] + "/failed.json", R"({"reason": "never settled"})");
@@ -261,7 +261,7 @@ TEST_F(Convert, RefusesWhereMoreThanOneDirectionInFiveCouldNotBeSolved) {
                   "in five; the first is case_00: never settled; run 'samara bake' again");
 }
 
-// As of a sphere, which has one direction.
+// The case of a sphere, which has one direction.
 TEST(ConvertOneDirection, TheMainReynoldsNumberIsThePlansWhateverCouldNotBeSolved) {
     const test::SolvedFolder folder(test::box_body(Vector3d(0.01, 0.02, 0.04)), 1, {1e3, 1e4, 1e4}, box_law);
     folder.change_plan([](nlohmann::json& plan) {
@@ -286,14 +286,14 @@ TEST_F(Convert, NamesTheCaseThatDiverged) {
         HasSubstr("case_02: diverged: postProcessing/forces/0/force.dat holds nan at the time 20; remove"));
 }
 
-TEST_F(Convert, RefusesThrust) {
+TEST_F(Convert, RejectsThrust) {
     std::string rows = "# Time total_x total_y total_z\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 0 0\n", i);
     folder_.write("case_00/postProcessing/forces/0/force.dat", rows);
     EXPECT_THAT(error(), HasSubstr("case_00: diverged: the drag coefficient is -2.546, not positive"));
 }
 
-TEST_F(Convert, RefusesFieldsAndHistoriesOfDifferentRuns) {
+TEST_F(Convert, RejectsFieldsAndHistoriesOfDifferentRuns) {
     std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 1\n", i);
     folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat", rows);
@@ -301,7 +301,7 @@ TEST_F(Convert, RefusesFieldsAndHistoriesOfDifferentRuns) {
     EXPECT_THAT(error(), HasSubstr("they are of different runs"));
 }
 
-TEST_F(Convert, RefusesCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
+TEST_F(Convert, RejectsCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
     folder_.replace("case_01/parameters", "reynoldsNumber 1000", "reynoldsNumber 2000");
     EXPECT_THAT(error(),
                 HasSubstr("case_01: was solved for the Reynolds number 2000, but plan.json has 1000"));
@@ -310,19 +310,19 @@ TEST_F(Convert, RefusesCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
                 HasSubstr("case_00: was solved for the direction (-1, 0, 0), but plan.json has (1, 0, 0)"));
 }
 
-TEST_F(Convert, RefusesTooFewIterations) {
+TEST_F(Convert, RejectsTooFewIterations) {
     folder_.replace("case_00/provenance.json", "\"averaging_start\": 10", "\"averaging_start\": 18");
     EXPECT_THAT(error(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
 }
 
-TEST_F(Convert, RefusesMeshesAndFieldsThatDoNotBelongTogether) {
+TEST_F(Convert, RejectsMeshesAndFieldsThatDoNotBelongTogether) {
     folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 4)", "3(1 2 5)");
     EXPECT_THAT(error(), HasSubstr("/V: has no value for cell 5 of the shell"));
     folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 5)", "0()");
     EXPECT_THAT(error(), HasSubstr("cellZones: the zone 'shell' has no cells"));
 }
 
-TEST_F(Convert, RefusesAPlanOfAnotherBody) {
+TEST_F(Convert, RejectsAPlanOfAnotherBody) {
     write_body_file(folder_.path() / "body.body.h5", test::box_body(Vector3d(0.01, 0.02, 0.05)));
     EXPECT_THAT(error(), HasSubstr("plan.json and body.body.h5 are of different bodies"));
 }
@@ -336,7 +336,7 @@ TEST_F(Convert, NamesADirectionThatThePlanForgot) {
                 HasSubstr("plan.json: Reynolds number 1000: no case in the direction (1, 0, 0), which"));
 }
 
-TEST_F(Convert, RefusesDamagedPlansInOneLine) {
+TEST_F(Convert, RejectsDamagedPlansInOneLine) {
     const std::string plan = read_bytes(folder_.path() / "plan.json");
     const auto error_of = [&](const std::string& text) {
         folder_.write("plan.json", text);
@@ -353,9 +353,9 @@ TEST_F(Convert, RefusesDamagedPlansInOneLine) {
         return content.dump();
     };
     EXPECT_THAT(error_of(plan.substr(0, 100)), HasSubstr("plan.json: is no JSON ("));
-    EXPECT_THAT(error_of("{}"), HasSubstr("an entry is missing or of the wrong kind"));
-    EXPECT_THAT(error_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong kind"));
-    EXPECT_THAT(error_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not sane"));
+    EXPECT_THAT(error_of("{}"), HasSubstr("an entry is missing or of the wrong type"));
+    EXPECT_THAT(error_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong type"));
+    EXPECT_THAT(error_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not from 1 to 1024"));
     EXPECT_THAT(error_of(changed("/reference_length", -1)), HasSubstr("'reference_length' is not positive"));
     EXPECT_THAT(error_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is no rotation"));
     EXPECT_THAT(error_of(changed("/cases", nlohmann::json::array())), HasSubstr("'cases' is empty"));
@@ -433,7 +433,7 @@ class ConvertOfAUsersCases : public Convert {
     static std::string header(const std::string& kind) {
         return "FoamFile { version 2.0; format ascii; class " + kind + "; object x; }\n";
     }
-    /// What the first case says that it solves.
+    /// The flow that the first case sets up.
     void set_up(const std::string& flow, const std::string& viscosity, const std::string& density) {
         folder_.write("case_00/0/U", header("volVectorField") +
                                          "internalField uniform (0 0 0);\nboundaryField { far { type "
@@ -469,7 +469,7 @@ TEST_F(ConvertOfAUsersCases, TakesThePlanThatIsOfThem) {
                           "'speed' 5; correct the plan, or solve the case for it"));
 }
 
-TEST_F(ConvertOfAUsersCases, RefusesAPlanWhoseNumbersAreNotTheirs) {
+TEST_F(ConvertOfAUsersCases, RejectsAPlanWhoseNumbersAreNotTheirs) {
     EXPECT_THAT(error_with("length", 13.8),
                 HasSubstr("sqrt(S/pi) of the body's area S in the mesh is 2, but plan.json has "
                           "the 'length' 13.8"));
@@ -484,14 +484,16 @@ TEST_F(ConvertOfAUsersCases, RefusesAPlanWhoseNumbersAreNotTheirs) {
                   "plan.json has the 'reynolds_number' 1000"));
 }
 
-TEST_F(ConvertOfAUsersCases, SaysWhichWayTheirFlowGoes) {
+TEST_F(ConvertOfAUsersCases, SaysWhichDirectionTheirFlowHas) {
     set_up("uniform (3 0 0)", "nu 6e-3", "rhoInf 5");
     EXPECT_THAT(
         error(),
-        HasSubstr("case_00: the flow goes the other way: along [1, 0, 0], and so the body along [-1, 0, 0], "
+        HasSubstr("case_00: the flow has the opposite direction: along [1, 0, 0], and so the body along [-1, "
+                  "0, 0], "
                   "but plan.json has the 'direction' [1, 0, 0], which is that of the body's velocity"));
     set_up("uniform (0 -3 0)", "nu 6e-3", "rhoInf 5");
-    EXPECT_THAT(error(), HasSubstr("the flow goes along [0, -1, 0], and so the body along [0, 1, 0], but"));
+    EXPECT_THAT(error(),
+                HasSubstr("the flow has the direction [0, -1, 0], and so the body along [0, 1, 0], but"));
 }
 
 TEST_F(ConvertOfAUsersCases, HoldsNothingAgainstWhatTheyDoNotSayPlainly) {
@@ -528,7 +530,7 @@ TEST(ConvertBySymmetry, BringsADirectionToTheOneThatTheTableHas) {
     }
 }
 
-/// What samara-convert prints, with its exit status before it.
+/// Runs samara-convert; returns its exit status and output.
 class ConvertProgram : public Convert {
   protected:
     std::pair<int, std::string> run(std::vector<std::string> words) const {

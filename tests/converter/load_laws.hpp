@@ -19,7 +19,7 @@ struct BoxLaw {
     }
 };
 
-/// The same at any Reynolds number, for SolvedFolder.
+/// Returns the law at any Reynolds number, for SolvedFolder.
 inline LoadEntry box_law(const Vector3d& direction, double /*reynolds_number*/) {
     return BoxLaw{}(direction);
 }

@@ -27,11 +27,11 @@ class SolvedFolder {
     /// The cases' names, in the plan's order.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
     [[nodiscard]] std::filesystem::path case_path(std::size_t index) const { return path() / names_[index]; }
-    /// Writes a file of the folder anew.
+    /// Rewrites a file of the folder.
     void write(const std::filesystem::path& name, std::string_view text) const {
         static_cast<void>(folder_.file(name, text));
     }
-    /// Writes plan.json anew as `change` makes it.
+    /// Rewrites plan.json as modified by `change`.
     void change_plan(const std::function<void(nlohmann::json&)>& change) const;
     /// A file of the folder with the first `from` in it made `to`.
     void replace(const std::filesystem::path& name, const std::string& from, const std::string& to) const;

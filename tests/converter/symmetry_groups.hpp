@@ -50,7 +50,7 @@ inline Matrix3d some_rotation() {
     return Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
 }
 
-/// The symmetry of the same body in a shape file whose axes see it turned by `rotation`.
+/// Returns the symmetry of the body in a shape file in whose axes it is rotated by `rotation`.
 inline Symmetry turned(Symmetry symmetry, const Matrix3d& rotation) {
     symmetry.axes = rotation * symmetry.axes;
     symmetry.axis = rotation * symmetry.axis;

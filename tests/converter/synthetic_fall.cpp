@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "converter/falls/falling_body.hpp"
+#include "converter/falls/fall_record.hpp"
 #include "support/known_bodies.hpp"
 
 namespace samara::test {
@@ -45,27 +45,27 @@ FallSample sample_of(const FreeFall& fall, double time, const BodyState& state) 
     FallSample sample;
     sample.time = time;
     sample.position = fall.center_of_mass + to_case * state.position / fall.length;
-    sample.turn = to_case * state.orientation.toRotationMatrix() * fall.axes;
-    sample.angular_velocity = sample.turn * to_case * state.velocity.head<3>() * fall.time_unit();
-    sample.velocity = sample.turn * to_case * state.velocity.tail<3>() / fall.speed;
+    sample.rotation = to_case * state.orientation.toRotationMatrix() * fall.axes;
+    sample.angular_velocity = sample.rotation * to_case * state.velocity.head<3>() * fall.time_unit();
+    sample.velocity = sample.rotation * to_case * state.velocity.tail<3>() / fall.speed;
     return sample;
 }
 
 FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients) {
-    ImmersedBody flying = falling_body(body, fall);
-    flying.dynamic = coefficients;
-    prepare(flying);
+    ImmersedBody immersed = falling_body(body, fall);
+    immersed.dynamic = coefficients;
+    prepare(immersed);
     FallRecord record;
     record.fall = fall;
     BodyState state = states_of(record).front();
     Vector6d momenta;
-    momenta << flying.own_inertia * state.velocity.head<3>(), flying.mass * state.velocity.tail<3>();
-    state.velocity = flying.inverse_inertia * momenta;
+    momenta << immersed.own_inertia * state.velocity.head<3>(), immersed.mass * state.velocity.tail<3>();
+    state.velocity = immersed.inverse_inertia * momenta;
     const Vector3d gravity = fall.axes * fall.gravity * fall.speed / fall.time_unit();
     const double step = fall.time_step * fall.time_unit() / substeps;
     const auto samples = static_cast<int>(std::lround(fall.duration / fall.time_step));
     for (int i = 1; i <= samples; ++i) {
-        for (int j = 0; j < substeps; ++j) state = implicit_step(flying, gravity, step, state);
+        for (int j = 0; j < substeps; ++j) state = implicit_step(immersed, gravity, step, state);
         record.samples.push_back(sample_of(fall, i * fall.time_step, state));
     }
     return record;

@@ -13,11 +13,11 @@ Body ellipsoid_with_tables();
 /// step of 0.01 L/U. The case's axes are not the body's, and the centre of mass is off the centroid.
 FreeFall oblique_fall(const Body& body, double duration);
 
-/// A record of the fall as the runtime flies the body with the coefficients, with steps a fifth as long. The
-/// loads are not filled in.
+/// Returns a record of the fall as simulated by the runtime with the coefficients, with steps a fifth as
+/// long. The loads are not filled in.
 FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients);
 
-/// One sample of a fall in the units and axes of its case: converter/falls/falling_body.hpp's states_of the
+/// One sample of a fall in the units and axes of its case: states_of() of converter/falls/fall_record.hpp the
 /// other way.
 FallSample sample_of(const FreeFall& fall, double time, const BodyState& state);
 

@@ -37,7 +37,7 @@ class BakeFolder : public testing::Test {
         return file;
     }
 
-    /// `words`: the command line without the program, words parted by spaces.
+    /// `words`: the command line without the program, words separated by spaces.
     [[nodiscard]] ProgramRun bake(const std::string& words, const std::string& environment = "") const {
         std::istringstream stream(words);
         std::vector<std::string> list = {"samara-bake"};

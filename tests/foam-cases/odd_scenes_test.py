@@ -89,26 +89,26 @@ VECTORS = {"gravity", "current", "velocity", "angular_velocity", "position", "ce
 
 
 def some_number(draw):
-    kind = draw.random()
-    if kind < 0.6:
+    choice = draw.random()
+    if choice < 0.6:
         return draw.choice(NUMBERS)
-    if kind < 0.8:
+    if choice < 0.8:
         return 10.0 ** draw.uniform(-12, 12)
     return draw.choice([1, -1]) * 10.0 ** draw.uniform(-4, 4)
 
 
 def some_value(draw, key, old):
-    kind = draw.random()
-    if kind < 0.15:
+    choice = draw.random()
+    if choice < 0.15:
         return draw.choice(OTHERS)
     if key in VECTORS or isinstance(old, list):
         count = len(old) if isinstance(old, list) and old else 3
         vector = copy.deepcopy(old) if isinstance(old, list) and len(old) == count else [0.0] * count
         vector[draw.randrange(count)] = some_number(draw)
-        return vector if kind < 0.7 else [some_number(draw) for _ in range(count)]
+        return vector if choice < 0.7 else [some_number(draw) for _ in range(count)]
     if isinstance(old, int) and not isinstance(old, bool):
         return draw.choice([0, 1, 2, 7, -1, 100, 10 ** 9, 2 ** 31, 2 ** 63 - 1, old])
-    if isinstance(old, float) and kind < 0.5:
+    if isinstance(old, float) and choice < 0.5:
         return old * 10.0 ** draw.uniform(-6, 6)
     return some_number(draw)
 
@@ -129,21 +129,21 @@ def edit(scene, draw):
     """One edit of the scene, in place."""
     header, entries = draw.choice(scene)
     table = draw.choice(list(tables_within(entries)))
-    kind = draw.random()
-    if kind < 0.45 and table:
+    choice = draw.random()
+    if choice < 0.45 and table:
         key = draw.choice(list(table))
         table[key] = some_value(draw, key, table[key])
-    elif kind < 0.6:
+    elif choice < 0.6:
         key = draw.choice(MORE_KEYS.get(header, ["position"]))
         entries[key] = some_value(draw, key, entries.get(key))
-    elif kind < 0.68 and table:
+    elif choice < 0.68 and table:
         del table[draw.choice(list(table))]
-    elif kind < 0.72 and table:
+    elif choice < 0.72 and table:
         key = draw.choice(list(table))
         table[key[:-1] + "q"] = table[key]
-    elif kind < 0.77:
+    elif choice < 0.77:
         scene.append(copy.deepcopy(draw.choice(scene)))
-    elif kind < 0.8 and len(scene) > 1:
+    elif choice < 0.8 and len(scene) > 1:
         scene.remove(draw.choice(scene))
     else:
         edit_times(scene, draw)
@@ -246,7 +246,7 @@ def unknown_numbers(result, name=""):
 
 
 def error_of(command, status, output, said):
-    """What is wrong with how a command ended; nothing where it ended as it should."""
+    """Returns the error in how a command ended; None where it ended properly."""
     notes = [line for line in said.splitlines() if ": note: " not in line and not PROGRESS.match(line)]
     if status == 0:
         try:
@@ -270,8 +270,8 @@ class OddScenes:
         self.folder = folder
         self.seconds = dict.fromkeys(COMMANDS, 0.0)
 
-    def faults(self, number):
-        """The faults of all commands of one scene, as texts."""
+    def errors(self, number):
+        """The errors of all commands of one scene, as texts."""
         text = odd_scene(number)
         folder = os.path.join(self.folder, str(number))
         os.makedirs(folder)
@@ -300,12 +300,12 @@ def main(programs, first=0, count=SCENES):
     with tempfile.TemporaryDirectory() as folder:
         odd = OddScenes(programs, folder)
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            faults = [line for found in pool.map(odd.faults, range(first, first + count)) for line in found]
+            errors = [line for found in pool.map(odd.errors, range(first, first + count)) for line in found]
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    print("\n".join(faults))
+    print("\n".join(errors))
     print(f"{count} scenes, {len(COMMANDS)} commands: {used.ru_utime + used.ru_stime:.0f} CPU s, "
-          f"{sum(line.startswith('scene ') for line in faults)} faults")
-    return 1 if faults else 0
+          f"{sum(line.startswith('scene ') for line in errors)} errors")
+    return 1 if errors else 0
 
 
 if __name__ == "__main__":

@@ -69,7 +69,7 @@ inline Body ellipsoid(const Vector3d& semi_axes, const Vector3d& center = Vector
     return body;
 }
 
-/// The same for a sphere, whose symmetry is every rotation.
+/// Returns a sphere, whose symmetry is every rotation, likewise.
 inline Body sphere(double radius, int rounds = 3) {
     Body body = ellipsoid(Vector3d::Constant(radius), Vector3d::Zero(), rounds);
     body.name = "sphere";

@@ -8,11 +8,10 @@
 #include <fstream>
 #include <string>
 
-#include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/case_plan.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/falls/free_fall.hpp"
-#include "converter/openfoam/foam_data.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"

@@ -112,7 +112,7 @@ TEST_P(ShapeKnownExactly, IsKeptWithinHalfAPercentAndTheEstimateIsAboveTheError)
 
     const KirchhoffTensor found = kirchhoff_tensor(body);
     Matrix6d exact = Matrix6d::Zero();
-    // What couples them depends on where the centroid is, and is not known exactly.
+    // The coupling depends on the place of the centroid, and is not known exactly.
     exact.topRightCorner<3, 3>() = found.matrix.topRightCorner<3, 3>();
     exact.bottomLeftCorner<3, 3>() = found.matrix.bottomLeftCorner<3, 3>();
     exact.diagonal() << shape.angular, shape.angular, 0.0, shape.across, shape.across, shape.along;

@@ -47,7 +47,7 @@ struct Shape {
     const char* file;
     double volume;
     double tolerance;  // relative: what flat triangles leave out of a curved body, or rounding
-    Symmetry::Type kind;
+    Symmetry::Type type;
     std::size_t elements;
 };
 
@@ -59,7 +59,7 @@ TEST_P(ShapeOfSamara, MakesAValidBody) {
     EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), 1280.0, 0.1 * 1280.0);
     EXPECT_NO_THROW(require_sound_surface(body.surface));
     EXPECT_NEAR(body.moments.volume, shape.volume, shape.tolerance * shape.volume);
-    EXPECT_EQ(body.symmetry.type, shape.kind);
+    EXPECT_EQ(body.symmetry.type, shape.type);
     EXPECT_EQ(body.symmetry.elements.size(), shape.elements);
     EXPECT_TRUE(body.symmetry.axes.isIdentity(0.0));
     EXPECT_EQ(body.name, std::filesystem::path(shape.file).stem());
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Shape{"samara.geo", 2.5554e-7, 0.04, Symmetry::Type::finite, 2}),
     [](const auto& shape) { return std::filesystem::path(shape.param.file).stem().string(); });
 
-TEST(MakeBody, MeetsTheCountOfTrianglesFromHundredsToThousands) {
+TEST(MakeBody, ReachesTheCountOfTrianglesFromHundredsToThousands) {
     for (const int count : {300, 5000}) {
         const Body body = make_body(test::shape_of_samara("disc.geo"), with_triangles(count));
         EXPECT_NEAR(static_cast<double>(body.surface.triangle_count()), count, 0.1 * count);
@@ -395,7 +395,7 @@ TEST(MakeBody, NamesWhatIsWrongWithAFile) {
     EXPECT_THAT(test::error_of([] { make_body("nowhere/missing.stl"); }),
                 HasSubstr("missing.stl: does not exist"));
     EXPECT_THAT(test::error_of([] { make_body(std::filesystem::temp_directory_path() / "x.blend"); }),
-                HasSubstr("is of no known kind; give a .geo"));
+                HasSubstr("is of no known format; give a .geo"));
     EXPECT_THAT(error_of_text("empty.stl", ""), HasSubstr("is empty"));
     EXPECT_THAT(error_of_text("words.stl", "these are no triangles"), HasSubstr("is no STL file"));
     EXPECT_THAT(
@@ -414,7 +414,7 @@ TEST(MakeBody, NamesWhatIsWrongWithAFile) {
     EXPECT_THAT(error_of_text("a.body.h5", "not HDF5"), HasSubstr("is not an HDF5 file"));
 }
 
-TEST(MakeBody, RefusesOptionsOutOfRange) {
+TEST(MakeBody, RejectsOptionsOutOfRange) {
     const auto cube = test::shape_of_samara("cube.geo");
     MeshOptions options;
     options.scale = -1.0;

@@ -1,9 +1,9 @@
 #!/usr/bin/env -S python3 -IB
-"""Tells Snakemake how a job of Slurm stands: prints running, success or failed.
+"""Reports the state of a Slurm job to Snakemake: prints running, success or failed.
 
     job_state.py ID
 
-Asks scontrol, so that no accounting need run.
+Uses scontrol, so that Slurm's accounting is not needed.
 """
 
 import re
@@ -17,7 +17,7 @@ RUNNING = {"PENDING", "CONFIGURING", "RUNNING", "COMPLETING", "SUSPENDED", "REQU
 def state(job):
     answer = subprocess.run(["scontrol", "--oneliner", "show", "job", job], capture_output=True, text=True, check=False)
     if answer.returncode != 0:
-        # Slurm forgets jobs minutes after their end: then the files that the job wrote, or did not, tell the rest.
+        # Slurm forgets jobs minutes after their end: then the job's files show its success.
         # Where Slurm does not answer, it will later.
         return "success" if "Invalid job id" in answer.stderr else "running"
     word = re.search(r"JobState=(\w+)", answer.stdout).group(1)

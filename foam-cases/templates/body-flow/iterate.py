@@ -3,13 +3,13 @@
 
     iterate.py      in the folder of the case, whose mesh is there
 
-A case that does not settle, or diverges, is tried again in the ways of ATTEMPTS, and fails after the last. Of an unsteady case an iteration is a step.
-rounds.json holds what was done. A round that was cut short is done again from the last whole one, so that a case
-that was killed ends with the same bytes as one that was not; where an input has changed, all starts afresh.
+A case that does not settle, or diverges, is repeated with the settings of ATTEMPTS, and fails after the last. For an unsteady case
+an iteration is a step. rounds.json records the rounds. An interrupted round is repeated from the last whole one, so that a killed
+case ends with the same bytes as others; where an input has changed, the case starts again.
 
 Exit 0: rounds.json has the verdict "stationary", or "restless" where an attempt ended within ACCEPTED_TOLERANCES or
-`acceptedError` (a wake that swings about a mean that stays); its standard error then says how well it is known. Exit 1: one line says why; the verdict is "failed"
-where all attempts did, else something stopped the solver.
+`acceptedError` (a wake that oscillates about a constant mean, whose standard error tells its accuracy). Exit 1 with one line:
+the verdict is "failed" where all attempts failed; otherwise the solver was stopped.
 """
 
 import glob
@@ -19,14 +19,14 @@ import shutil
 import subprocess
 import sys
 
-# After Python's own folders, so that no file of this one takes the place of a module of theirs.
+# After Python's own folders, so that no file of this one replaces a module there.
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))
 from case_files import (Failure, CaseError, are_attempts, breakdown, could_not_read_state,  # noqa: E402
                         hash_of_inputs, read, read_record, say, time_folders, word, write_entries, write_json)
 from stationarity import has_k_and_epsilon, whole_histories, worst_quantity  # noqa: E402
 
-# Each attempt: its changes to the parameters, those of its first round, and where it starts: as `startFrom` says,
-# from what stands, or from the undisturbed flow.
+# For each attempt: changes of parameters, further changes in its first round, and its start: by `startFrom`, from the current
+# state, or from the undisturbed flow.
 ATTEMPTS = {
     "as planned": ({}, {}, "startFrom"),
     "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, "what stands"),
@@ -36,19 +36,19 @@ ATTEMPTS = {
 }
 AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
 AFTER_DIVERGENCE = {"as planned": "cautious", "damped": "cautious"}
-# Of an unsteady case: what swings is the flow itself, and no relaxation helps what blows up.
+# For unsteady cases: oscillations are of the flow itself, and relaxation does not help against divergence.
 AFTER_DIVERGENCE_IN_TIME = {"as planned": "half the step"}
 STEPS_OVER_PLANNED = {"half the step": 2}
 ACCEPTED_TOLERANCES = 3.0
 
 
 def own(name):
-    """The text of an entry of the case's file `parameters`."""
+    """Returns the text of an entry of the case's file `parameters`."""
     return word(read("parameters"), name)
 
 
 def start_folder():
-    """The folder of the solved case to start from; None where there is none, or where it failed."""
+    """Returns the folder of the solved case to start from; None where there is none, or where it failed."""
     folder = os.path.join("..", own("startFrom"))
     return folder if os.path.exists(os.path.join(folder, "provenance.json")) else None
 
@@ -63,7 +63,7 @@ def run_program(words, log):
 
 
 class Rounds:
-    """What was done, and so from where to go on. `goes_on`: from what an earlier run left, with no round done since."""
+    """The rounds of the case so far. `goes_on`: whether it continues an earlier run, and no round was done since."""
 
     def __init__(self):
         self.round_iterations = int(own("roundIterations"))
@@ -136,7 +136,7 @@ class Rounds:
             self.make_start()
 
     def make_start(self):
-        """The folder 0: the undisturbed flow, or the solution of another case on this mesh."""
+        """Makes the folder 0: the undisturbed flow, or the solution of another case mapped to this mesh."""
         if os.path.lexists("round"):  # of another run
             os.remove("round")
         shutil.copytree("0.orig", "0")
@@ -149,7 +149,7 @@ class Rounds:
                 raise CaseError(f"mapFields failed; see {os.path.abspath('log.mapFields')}")
 
     def run_round(self):
-        """One more round, and what it says of the case: a verdict, the end of the attempt, or neither."""
+        """Runs one more round, and records a verdict, the end of the attempt, or neither."""
         attempt = self.attempt
         changes, first_changes, _ = ATTEMPTS[attempt["what"]]
         if attempt["iterations"] == attempt["first"]:
@@ -179,7 +179,7 @@ class Rounds:
         self.keep_whole_rounds()
 
     def after(self, cause, following):
-        """Goes on to the next attempt, or ends."""
+        """Begins the next attempt, or sets the verdict."""
         self.attempt["end"] = cause
         following = following.get(self.attempt["what"])
         if following:
@@ -192,7 +192,7 @@ class Rounds:
 
     def run(self):
         while self.state["verdict"] is None:
-            # An attempt that had ended before a kill is not gone on with.
+            # An attempt that had ended before the script was killed is not continued.
             if "end" in self.attempt:
                 accepted = self.attempt["unsteadiness_over_tolerance"] <= self.accepted
                 self.after(self.attempt["end"], {} if accepted or self.unsteady else AFTER_RESTLESSNESS)
@@ -203,7 +203,7 @@ class Rounds:
                 self.attempt.pop("unsteadiness_over_tolerance", None)
                 self.after(str(cause), AFTER_DIVERGENCE_IN_TIME if self.unsteady else AFTER_DIVERGENCE)
             except CaseError:
-                # As where the disk was full when an earlier run wrote its last round.
+                # For example the disk was full when an earlier run wrote its last round.
                 if not self.goes_on or not could_not_read_state(self.log):
                     raise
                 self.goes_on = False

@@ -1,19 +1,19 @@
-"""Whether a case has become statistically stationary, judged by what the tables are made of.
+"""Tests whether a case is statistically stationary, by the quantities of the tables.
 
-Force, moment, k and epsilon over the shell are watched, not residuals: that of the pressure settles long before k
-does, and never does where the wake oscillates. The last half of the iterations is the window over which means are
-taken. A quantity is stationary when half the difference between the means of the window's two halves (a drift) and
-the standard error from six batches (an oscillation) are both within the tolerance.
+These are force, moment, and k and epsilon over the shell. Residuals are not used: that of the pressure settles long
+before k, and never where the wake oscillates. Means are taken over the last half of the iterations. A quantity is
+stationary when half the difference between the means of the window's two halves (a drift) and the standard error from
+six batches (an oscillation) are both within the tolerance.
 """
 
 import math
 
 from case_files import Failure, CaseError, history, word
 
-# k and epsilon settle later than forces and are less certain in any case: their tolerance over that of forces.
+# The tolerance of k and epsilon relative to that of forces: they settle later and are less certain in any case.
 TURBULENCE_TOLERANCES = 3.0
 BATCHES = 6
-# Loads below these are noise: coefficients over rho U^2 A/2 and rho U^2 A L/2.
+# Loads below these are noise: coefficients relative to rho U^2 A/2 and rho U^2 A L/2.
 LEAST_FORCE = 0.1
 LEAST_MOMENT = 0.2
 # The largest force coefficient that is no sign of divergence: a plate broadside has 2.5.
@@ -22,7 +22,7 @@ AREA_UNIT = math.pi / 8  # rho U^2 A/2 with rho = U = L = 1 and A = pi L^2/4
 
 
 class Diverged(Failure):
-    """The iterations went to nonsense."""
+    """The iterations diverged."""
 
 
 def mean(values):
@@ -30,7 +30,7 @@ def mean(values):
 
 
 def unsteadiness(values):
-    """The larger of the drift and the standard error from batches."""
+    """Returns the larger of the drift and the standard error by batches."""
     half = len(values) // 2
     drift = abs(mean(values[half:]) - mean(values[:half])) / 2
     length = len(values) // BATCHES
@@ -41,14 +41,14 @@ def unsteadiness(values):
 
 
 def has_k_and_epsilon(parameters):
-    """Whether the model of the case with that text of its file `parameters` solves for both."""
+    """Whether the turbulence model in the text of a file `parameters` solves for k and epsilon."""
     return word(parameters, "simulationType") == "RAS" and word(parameters, "closure").endswith(("Epsilon", "KE"))
 
 
 def whole_history(folder, name, file, last, time_step=1.0):
-    """The history, one row [iteration, values...] for each iteration up to the `last`. Raises CaseError where any is missing.
+    """Returns the history, one row [iteration, values...] for each iteration up to `last`. Raises CaseError where one is missing.
 
-    `time_step`: the time that an iteration takes in the case."""
+    `time_step`: the case's time per iteration."""
     rows = history(folder, name, file)
     for iteration in range(1, int(last) + 1):
         if len(rows) < iteration or abs(rows[iteration - 1][0] / time_step - iteration) > 0.01:
@@ -58,18 +58,17 @@ def whole_history(folder, name, file, last, time_step=1.0):
 
 
 def whole_histories(folder, last, turbulent, time_step=1.0):
-    """The histories of force, moment, and k and epsilon (empty where not `turbulent`: where the model has not both).
-    Raises as whole_history."""
+    """Returns the histories of force, moment, and k and epsilon (empty where not `turbulent`). Raises CaseError as whole_history."""
     return (whole_history(folder, "forces", "force.dat", last, time_step),
             whole_history(folder, "forces", "moment.dat", last, time_step),
             whole_history(folder, "shell", "volFieldValue.dat", last, time_step) if turbulent else [])
 
 
 def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
-    """(unsteadiness over tolerance, its quantity, first iteration of the window) of the worst quantity.
+    """Returns (unsteadiness relative to its tolerance, name, first iteration of the window) of the worst quantity.
 
-    `first`: the iteration after which the present settings were used; `last`: the one that was reached. Raises Diverged
-    where the values are not finite, not positive (k, epsilon) or absurd, CaseError where a history is not whole."""
+    `first`: the iteration after which the current settings are used; `last`: the last iteration. Raises Diverged where values are
+    not finite, not positive (k, epsilon) or too large, CaseError where a history is not whole."""
     forces, moments, shell = whole_histories(folder, last, turbulent, time_step)
     for row in forces + moments + shell:
         if not all(map(math.isfinite, row)):

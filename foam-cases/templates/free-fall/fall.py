@@ -1,14 +1,14 @@
 #!/usr/bin/env -S python3 -IB
-"""Runs pimpleFoam over a free fall, watches it, and tries again with shorter steps where it blows up.
+"""Runs pimpleFoam over a free fall, monitors it, and repeats it with shorter steps where it diverges.
 
     fall.py      in the folder of the case, whose mesh is there
 
-The attempts are those of ATTEMPTS, each from the start; attempts.json holds what was done. A fall that was cut short
-goes on from the last state that was written whole; where an input has changed, it starts afresh. A fall that went on
-is not the same to the last bit as one that was never stopped: the solver takes its first step anew.
+The attempts are those of ATTEMPTS, each from the start; attempts.json records them. An interrupted fall continues from the last
+state that was written completely; where an input has changed, it starts again. A continued fall is not equal to the last bit to
+one that was never stopped, since the solver repeats its first step.
 
-Exit 0: attempts.json has the verdict "done". Exit 1: one line says why; the verdict is "failed" where all attempts
-blew up, else something stopped the solver.
+Exit 0: attempts.json has the verdict "done". Exit 1 with one line: the verdict is "failed" where all attempts diverged; otherwise
+the solver was stopped.
 """
 
 import glob
@@ -20,30 +20,30 @@ import signal
 import subprocess
 import sys
 
-# After Python's own folders, so that no file of this one takes the place of a module of theirs.
+# After Python's own folders, so that no file of this one replaces a module there.
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))
 from case_files import (Failure, CaseError, are_attempts, breakdown, could_not_read_state, cpu_seconds,  # noqa: E402
                         hash_of_inputs, numbers, parameter, read, read_record, say, time_folders, write_entries,
                         write_json)
 
 SOLVER = "pimpleFoam"
-CONTAINER = os.environ.get("SAMARA_OPENFOAM", "").split()  # the words before it, where it is in one
+CONTAINER = os.environ.get("SAMARA_OPENFOAM", "").split()  # the words that run it in a container
 LOG = "log." + SOLVER
 
-# Each: the factors on the step and on the relaxation of the acceleration, and the outer correctors. The relaxation is
-# lowered too, since what blows up may be the exchange of forces between body and fluid, which no step helps.
+# For each attempt: factors of the step and of the relaxation of the acceleration, and the outer correctors. The relaxation is
+# lowered too, since the coupling of body and fluid may be unstable, which no step helps.
 ATTEMPTS = {
     "as planned": (1.0, 1.0, None),
     "half the step": (0.5, 0.7, None),
     "a quarter of the step": (0.25, 0.5, 2),
 }
-# What an attempt has in place of the plan.
+# The entries that an attempt may replace.
 REMEDIES = ("timeStep", "accelerationRelaxation", "outerCorrectors")
-# A body in free fall is about as fast as the case's unit: ten times that, or of the start, is no fall any more.
+# The speed of a fall is about the case's unit: ten times that, or ten times the start's, means divergence.
 LARGEST_SPEED = 10.0
-# Over U/L: some twenty times the turning of a coin that tumbles, whose rim is about as fast as its centre.
-LARGEST_TURNING = 100.0
-SECONDS_BETWEEN_LOOKS = 0.5
+# In units of U/L: some twenty times the angular velocity of a tumbling coin, whose rim is about as fast as its centre.
+LARGEST_ANGULAR_VELOCITY = 100.0
+SECONDS_BETWEEN_CHECKS = 0.5
 MORE_THAN_A_ROW = 1024  # characters of a history
 
 
@@ -52,12 +52,12 @@ def own(name):
 
 
 def states():
-    """The paths of the written states by their times, without the start."""
+    """Returns the paths of the written states by their times, without the start."""
     return {time: path for time, path in time_folders(".").items() if time > 0}
 
 
 def last_row(path):
-    """The last whole row of a history; None where there is none."""
+    """Returns the last whole row of a history; None where there is none."""
     with open(path, "rb") as file:
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - MORE_THAN_A_ROW))
@@ -67,7 +67,7 @@ def last_row(path):
 
 
 def last_state():
-    """The time and the numbers of the last whole row of the body's state; None before the first."""
+    """Returns the time and the numbers of the last whole row of the body's state; None before the first."""
     for start in reversed(time_folders("postProcessing/state").values()):
         for path in glob.glob(os.path.join(start, "sixDoFRigidBodyState*.dat")):
             row = last_row(path)
@@ -76,21 +76,21 @@ def last_state():
     return None
 
 
-def blow_up(state, start_speed):
-    """What shows that the state is of no fall any more; None where nothing does."""
-    velocity, turning = state[-6:-3], state[-3:]
+def divergence_of(state, start_speed):
+    """Returns the sign of divergence in a state; None where there is none."""
+    velocity, angular_velocity = state[-6:-3], state[-3:]
     speed = math.hypot(*velocity)
     if not all(map(math.isfinite, state)):
         return "its state is not finite"
     if speed > LARGEST_SPEED * max(1.0, start_speed):
         return f"its speed is {speed:.3g} U"
-    if math.hypot(*turning) > LARGEST_TURNING:
-        return f"its angular velocity is {math.hypot(*turning):.3g} U/L"
+    if math.hypot(*angular_velocity) > LARGEST_ANGULAR_VELOCITY:
+        return f"its angular velocity is {math.hypot(*angular_velocity):.3g} U/L"
     return None
 
 
 class Fall:
-    """What was done, and so from where to go on."""
+    """The attempts at the fall so far."""
 
     def __init__(self):
         inputs = hash_of_inputs()
@@ -102,7 +102,7 @@ class Fall:
             self.take_up()
 
     def is_whole(self):
-        """Whether the fall is still under way, or its history goes to its end."""
+        """Whether the fall is unfinished, or its history reaches its end."""
         return are_attempts(self.state, ATTEMPTS, ("started",), REMEDIES) and (
             self.state["verdict"] is None or self.is_at_end())
 
@@ -130,7 +130,7 @@ class Fall:
         self.make_start()
 
     def write_remedy(self):
-        """The entries that the attempt has in place of the plan's: numbers alone, whatever its record holds."""
+        """Writes the entries that the attempt replaces: only numbers, whatever its record holds."""
         write_entries("remedy", "What this attempt has in place of the plan; written by fall.py",
                       {name: f"{float(self.attempt[name]):.12g}" for name in REMEDIES if name in self.attempt})
 
@@ -145,9 +145,9 @@ class Fall:
         write_json("attempts.json", self.state)
 
     def take_up(self):
-        """Goes on with an attempt that was cut short, or to the one after it."""
+        """Continues an interrupted attempt, or begins the next one."""
         if "end" in self.attempt:
-            self.after_blow_up()
+            self.after_divergence()
         elif not self.attempt["started"]:
             self.make_start()
         else:
@@ -155,8 +155,8 @@ class Fall:
             self.go_on()
 
     def go_on(self, before=math.inf):
-        """Removes the states from a time on, and those that may not be whole, since the solver did not go on after
-        them; and what had followed the last one that is left, or the start."""
+        """Removes the states from a time on, and those that may be incomplete, since the solver did not continue after them; and the
+        histories after the last remaining state."""
         reached = last_state()
         bound = min(before, reached[0] if reached else 0.0)
         last = max([time for time in states() if time < bound], default=0.0)
@@ -176,17 +176,17 @@ class Fall:
         ended = False
         while not ended:
             try:
-                solver.wait(SECONDS_BETWEEN_LOOKS)
+                solver.wait(SECONDS_BETWEEN_CHECKS)
                 ended = True
             except subprocess.TimeoutExpired:
                 pass
             reached = last_state()
-            error = reached and blow_up(reached[1], start_speed)
+            error = reached and divergence_of(reached[1], start_speed)
             if error:
-                raise Failure(f"the fall blew up at time {reached[0]:g}: {error}; see {os.path.abspath(LOG)}")
+                raise Failure(f"the fall diverged at time {reached[0]:g}: {error}; see {os.path.abspath(LOG)}")
 
     def run_solver(self):
-        """Runs the solver to the end of the fall; its log goes on where that of an earlier run ended."""
+        """Runs the solver to the end of the fall; its log is appended to that of an earlier run."""
         with open(LOG, "a") as log:
             solver = subprocess.Popen([*CONTAINER, SOLVER], stdout=log, stderr=subprocess.STDOUT)
             try:
@@ -201,12 +201,12 @@ class Fall:
             raise CaseError(f"postProcessing/state ends before the fall does; is the disk full? See {os.path.abspath(LOG)}")
 
     def note_cost(self):
-        """Of all the runs of this attempt, by its log."""
+        """Records the CPU seconds of all runs of this attempt, by its log."""
         runs = re.split(r"^Build\s*:", read(LOG), flags=re.MULTILINE)
         self.attempt["cpu_seconds"] = round(sum(map(cpu_seconds, runs)), 2)
         self.state["cpu_seconds"] = round(sum(one["cpu_seconds"] for one in self.state["attempts"]), 2)
 
-    def after_blow_up(self):
+    def after_divergence(self):
         names = list(ATTEMPTS)
         following = names[names.index(self.attempt["what"]) + 1:]
         if following:
@@ -221,11 +221,11 @@ class Fall:
             self.state["verdict"] = "done"
         except Failure as cause:
             self.note_cost()
-            kept = f"{LOG}.{len(self.state['attempts'])}"  # the next attempt has a log of its own
+            kept = f"{LOG}.{len(self.state['attempts'])}"  # the next attempt writes another log
             shutil.copyfile(LOG, kept)
             self.attempt["end"] = str(cause).replace(LOG, kept)
             write_json("attempts.json", self.state)
-            self.after_blow_up()
+            self.after_divergence()
         except CaseError:
             if not states() or not could_not_read_state(LOG):
                 raise
@@ -239,7 +239,7 @@ class Fall:
 
 def main():
     os.chdir(os.path.dirname(os.path.abspath(__file__)))
-    # So that the solver is ended too.
+    # So that the solver is terminated too.
     signal.signal(signal.SIGTERM, lambda number, frame: sys.exit("stopped; ./Allrun goes on from the last state"))
     try:
         fall = Fall()

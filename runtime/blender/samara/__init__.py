@@ -18,7 +18,7 @@ except ImportError:
     raise ImportError("samara needs numpy in Blender's Python; on Debian: apt install python3-numpy") from None
 
 if not hasattr(numpy, "bool"):
-    numpy.bool = bool  # Blender 3.4's importer of .glb uses a name that numpy 1.24 to 1.26 does not have
+    numpy.bool = bool  # Blender 3.4's .glb importer uses numpy.bool, which numpy 1.24 to 1.26 does not have
 
 from . import add_bodies, bake, live, panel, properties, simulate
 

@@ -1,4 +1,4 @@
-"""Operator: objects with the surface of a body file, one or many."""
+"""Operator that adds one or many objects with the surface of a body file."""
 
 import os
 
@@ -19,7 +19,7 @@ def _mesh_of(body, unit):
 
 
 def _random_turn(random):
-    """A quaternion, uniform over all."""
+    """Returns a uniformly distributed random quaternion."""
     q = random.normal(size=4)
     return q / numpy.linalg.norm(q)
 
@@ -36,13 +36,13 @@ class SAMARA_OT_add_bodies(bpy.types.Operator):
     spread: FloatVectorProperty(
         name="Spread", description="Up to this far from the 3D cursor along each axis", subtype="TRANSLATION", size=3
     )
-    turn: BoolProperty(name="Turn", description="Each into an attitude of its own")
+    turn: BoolProperty(name="Turn", description="A random orientation for each body")
     smallest_size: FloatProperty(
-        name="Smallest Size", description="Over that of the body file; each body has one between the two", default=1.0, min=0.001
+        name="Smallest Size", description="Relative to the body file; each body has a size between the two", default=1.0, min=0.001
     )
-    largest_size: FloatProperty(name="Largest Size", description="Over that of the body file", default=1.0, min=0.001)
+    largest_size: FloatProperty(name="Largest Size", description="Relative to the body file", default=1.0, min=0.001)
     release: FloatProperty(
-        name="Release Over", description="So many frames: each body is held for a share of them", default=0.0, min=0.0
+        name="Release Over", description="Frames over which the bodies are released at random; each is held until then", default=0.0, min=0.0
     )
     spread_seed: IntProperty(name="Seed of the Spread", default=1, min=0)
     density: FloatProperty(name="Density", description="kg/m^3", default=1200.0, min=0.001, precision=1)

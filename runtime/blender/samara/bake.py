@@ -1,4 +1,4 @@
-"""Operator: a body file from an object's mesh, by the program samara."""
+"""Operator that bakes a body file from an object's mesh, by the program samara."""
 
 import os
 import tempfile
@@ -16,7 +16,7 @@ from .samara_library import SamaraError
 
 
 def mesh_corners(context, o):
-    """The triangles (n, 3 corners, 3) of the object with modifiers and scale, in metres about its origin."""
+    """Returns the triangles (n, 3 corners, 3) of the object with modifiers and scale, in metres about its origin."""
     if any(s < 0.0 for s in scale_of(o)):
         raise SamaraError(f"{o.name}: has a negative scale, which turns its faces; apply it (Ctrl A, Scale)")
     if any(s == 0.0 for s in scale_of(o)):
@@ -26,7 +26,7 @@ def mesh_corners(context, o):
 
 
 def output_folder():
-    """Where baked bodies go: beside the .blend file, or among temporary files as long as it is not saved."""
+    """Returns the folder of baked bodies: beside the .blend file, or a temporary one while that is not saved."""
     if bpy.data.filepath:
         folder = bpy.path.abspath("//samara")
     else:
@@ -42,7 +42,7 @@ class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
     bl_idname = "samara.bake"
     bl_label = "Bake Body"
     bl_description = "Makes a body file of the active object's closed mesh, with the program samara"
-    bl_options = {"UNDO"}  # not REGISTER: to change a past call must not run it all again
+    bl_options = {"UNDO"}  # not REGISTER, by which changed settings of a past call would run it again
     WHILE_RUNNING = {"PASS_THROUGH"}
     CANCELLED = "bake cancelled; what is solved is kept, and the next bake goes on from there"
 

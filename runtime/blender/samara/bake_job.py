@@ -1,4 +1,4 @@
-"""The program samara, run beside Blender: from a mesh to a body file. Knows nothing of Blender."""
+"""Runs the program samara beside Blender to make a body file from a mesh. Does not import Blender's modules."""
 
 import os
 import re
@@ -13,7 +13,7 @@ from .samara_library import SamaraError
 
 
 def find_program(name):
-    """The path of the program, by its path or among those of the system."""
+    """Returns the path of the program, given by its path or a name on PATH."""
     found = shutil.which(os.path.expanduser(name))
     if not found:
         raise SamaraError(f"the program '{name}' is not found; install samara, or set its path in the add-on's preferences")
@@ -21,7 +21,7 @@ def find_program(name):
 
 
 def write_stl(path, corners):
-    """Triangles (n, 3 corners, 3), metres, as a binary .stl file."""
+    """Writes triangles (n, 3 corners, 3), in metres, as a binary .stl file."""
     records = numpy.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     records["corners"] = corners
     with open(path, "wb") as file:
@@ -31,7 +31,7 @@ def write_stl(path, corners):
 
 
 def scene_text(name, stl, density, fluid):
-    """The scene that `samara bake` reads. fluid: density and viscosity."""
+    """Returns the scene (TOML) that `samara bake` reads. fluid: density and viscosity."""
     return (
         f"[scene]\nduration = 1.0\n\n[fluid]\ndensity = {fluid[0]!r}\nviscosity = {fluid[1]!r}\n\n"
         f'[[body]]\nname = "{name}"\nshape = "{stl}"\ndensity = {density!r}\n'
@@ -39,7 +39,7 @@ def scene_text(name, stl, density, fluid):
 
 
 def bake_command(program, folder, name, quality, density, fluid):
-    """The command that makes folder/NAME.body.h5 from folder/NAME.stl. Writes the scene that it reads."""
+    """Returns the command that makes folder/NAME.body.h5 from folder/NAME.stl, and writes the scene that it reads."""
     if quality == "SHAPE":
         output = os.path.join(folder, f"{name}.body.h5")
         return [program, "kirchhoff", os.path.join(folder, f"{name}.stl"), "-o", output]
@@ -50,13 +50,13 @@ def bake_command(program, folder, name, quality, density, fluid):
 
 
 class BakeJob:
-    """A running command, its progress and its last words."""
+    """A running command, its progress and its last line of output."""
 
     def __init__(self, command):
-        self.line = ""  # the last one that it wrote
+        self.line = ""  # the last line that it wrote
         self.cancelled = False
         try:
-            # A process group of its own, so that its solvers end with it.
+            # A separate process group, so that its solvers end with it.
             self._process = subprocess.Popen(
                 command,
                 stdin=subprocess.DEVNULL,
@@ -76,12 +76,12 @@ class BakeJob:
                 self.line = text
 
     def progress(self):
-        """From 0 to 1, as far as its last line tells."""
+        """Returns the progress from 0 to 1, by the last line."""
         found = re.search(r"(\d+) of (\d+)", self.line)
         return int(found[1]) / max(1, int(found[2])) if found else 0.0
 
     def is_done(self):
-        """Whether it has ended well. Raises what it refused."""
+        """Whether the command has succeeded. Raises SamaraError with its message where it failed."""
         status = self._process.poll()
         if status is None:
             return False
@@ -95,7 +95,7 @@ class BakeJob:
         self.is_done()
 
     def cancel(self):
-        """Ends it; what is solved is kept, and the next bake goes on from there."""
+        """Ends the command; solved cases are kept, and the next bake continues from there."""
         if self._process.poll() is not None:
             return
         self.cancelled = True

@@ -1,4 +1,4 @@
-"""Between Blender's conventions and samara's: lengths, time, names.
+"""Converts between Blender's conventions and samara's: lengths, time, names.
 
 Both have z up, right-handed axes and quaternions (w, x, y, z), so that only scales differ. samara counts metres and
 seconds. A Blender unit is `metres_per_unit` metres, a frame is fps_base/fps seconds, and the scene's first frame is
@@ -13,7 +13,7 @@ from .samara_library import SamaraError
 
 
 def metres_per_unit(scene):
-    """The length of a Blender unit: the scene's unit scale, where it has units."""
+    """Returns the length of a Blender unit (m): the scene's unit scale, where it has units."""
     units = scene.unit_settings
     return units.scale_length if units.system != "NONE" else 1.0
 
@@ -23,7 +23,7 @@ def seconds_per_frame(scene):
 
 
 def frame_count(scene):
-    """Frames from the scene's first to its last, both counted."""
+    """Returns the number of frames from the scene's first to its last, inclusive."""
     if scene.frame_end <= scene.frame_start:
         raise SamaraError(
             f"the scene's frame range, {scene.frame_start} to {scene.frame_end}, has no length; "
@@ -33,13 +33,13 @@ def frame_count(scene):
 
 
 def frame_times(scene):
-    """The time (s) of every frame of the range."""
+    """Returns the time (s) of every frame of the range."""
     step = seconds_per_frame(scene)
     return [i * step for i in range(frame_count(scene))]
 
 
 def noise_name(name):
-    """The name that keys an object's noise: of any name a different one of letters, digits, - and _ alone."""
+    """Returns the name that seeds an object's noise: unique for each name, with letters, digits, - and _ only."""
     plain = re.sub(r"[^A-Za-z0-9-]", lambda c: "__" if c[0] == "_" else f"_{ord(c[0]):x}_", name)
     if len(plain) <= 64:
         return plain
@@ -47,7 +47,7 @@ def noise_name(name):
 
 
 def continuous(rotations):
-    """Quaternions (n, 4) on end, each of the sign that is nearer to the one before."""
+    """Chooses the signs of consecutive quaternions (n, 4) so that each is near the one before."""
     for i in range(1, len(rotations)):
         if rotations[i] @ rotations[i - 1] < 0.0:
             rotations[i] = -rotations[i]
@@ -55,7 +55,7 @@ def continuous(rotations):
 
 
 def size_of(name, scale, body_scale):
-    """How large an object is, over the size of its body file. Refuses one of another shape."""
+    """Returns the size of an object relative to its body file. Raises SamaraError for an object of another shape."""
     ratios = [a / b if b else 0.0 for a, b in zip(scale, body_scale)]
     if ratios[0] > 0.0 and all(math.isclose(ratio, ratios[0], rel_tol=1e-4) for ratio in ratios):
         return 1.0 if math.isclose(ratios[0], 1.0, rel_tol=1e-4) else sum(ratios) / 3.0

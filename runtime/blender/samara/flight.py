@@ -1,4 +1,4 @@
-"""Flights: the poses of objects at every frame, many of them in one simulation. Knows nothing of Blender."""
+"""The simulated poses of objects at every frame, many objects in one simulation. Does not import Blender's modules."""
 
 import concurrent.futures
 import dataclasses
@@ -17,7 +17,7 @@ from .samara_library import SamaraError
 
 @dataclasses.dataclass(frozen=True)
 class Obstacle:
-    """What bodies touch, in SI units; arrays as bytes, so that equal obstacles are the same to all that depends on them."""
+    """An obstacle, in SI units. Arrays are stored as bytes, so that equal obstacles compare equal."""
 
     name: str
     vertices: bytes  # doubles (n, 3), in the object's axes
@@ -27,7 +27,7 @@ class Obstacle:
 
     @functools.cached_property
     def digest(self):
-        """In hexadecimal digits: of all of it."""
+        """Returns the hash of all members in hexadecimal digits."""
         parts = (self.name.encode(), self.vertices, self.triangles, repr(self.friction).encode(), self.keys)
         return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
 
@@ -43,7 +43,7 @@ class Obstacle:
 
 @dataclasses.dataclass(frozen=True)
 class Surroundings:
-    """What all bodies of a scene share, and the frames at which they are shown."""
+    """The settings that all bodies of a scene share, and the frames."""
 
     fluid_density: float
     fluid_viscosity: float
@@ -61,12 +61,12 @@ class Surroundings:
 
     @functools.cached_property
     def digest(self):
-        """In hexadecimal digits: of all of it."""
+        """Returns the hash of all members in hexadecimal digits."""
         plain = dataclasses.replace(self, obstacles=tuple(obstacle.digest for obstacle in self.obstacles))
         return hashlib.sha256(repr(plain).encode()).hexdigest()
 
     def simulation(self):
-        """One without bodies."""
+        """Returns a simulation without bodies."""
         settings = samara_library.default_settings()
         settings.fluid_density = self.fluid_density
         settings.fluid_viscosity = self.fluid_viscosity
@@ -87,18 +87,18 @@ class Surroundings:
 
 @dataclasses.dataclass(frozen=True)
 class Request:
-    """All that an object's motion depends on, in SI units. Equal requests have equal motions."""
+    """All inputs of an object's motion, in SI units. Equal requests have equal motions."""
 
     name: str
     body_file: str
-    body_file_time: int  # when the file was written: a file that is baked anew is another request
+    body_file_time: int  # modification time: a file that is baked again is another request
     density: float
-    mass: str  # FILE: as the file says, by the density where it says nothing; DENSITY, MASS
-    mass_given: tuple  # kg, centre of mass or None, inertia (9 numbers) or None; with MASS; at the object's size
-    size: float  # over the body file's
-    start: float  # s: held until then, or led by keys
-    led: bool  # whether the velocities are the keys', of the shape's origin
-    loads: str  # AUTO: what the file holds, TABLE, SURFACE, COEFFICIENTS
+    mass: str  # FILE: the file's mass, or by the density where it has none; DENSITY; MASS
+    mass_given: tuple  # with MASS: kg, centre of mass or None, inertia (9 numbers) or None; at the object's size
+    size: float  # relative to the body file
+    start: float  # s, until which it is held or follows its keys
+    led: bool  # whether the velocities are those of its keys, at the shape's origin
+    loads: str  # AUTO (the best that the file holds), TABLE, SURFACE, COEFFICIENTS
     drag_coefficient: float
     lift_coefficient: float
     noise: bool
@@ -107,7 +107,7 @@ class Request:
     velocity: tuple  # of the centre of mass, world axes
     angular_velocity: tuple  # world axes
     surroundings: Surroundings
-    company: str = ""  # where bodies meet: the digest of all that fly together
+    group_digest: str = ""  # where bodies collide: the digest of all bodies of the simulation
 
     def group(self, body):
         group = samara_library.default_body_group()
@@ -139,53 +139,53 @@ class Request:
             group.density = self.density
 
     def digest(self):
-        """In hexadecimal digits: of all that the motion depends on, the library's version included."""
+        """Returns the hash of all inputs of the motion, including the library's version, in hexadecimal digits."""
         plain = dataclasses.replace(self, surroundings=None)
         return hashlib.sha256(f"{samara_library.version()} {self.surroundings.digest} {plain!r}".encode()).hexdigest()
 
 
 def together(requests):
-    """The same requests; where bodies meet, each knows all of them, since each one's motion depends on them all."""
+    """Returns the requests; where bodies collide, each with the digest of all, since its motion depends on them."""
     if not requests or not requests[0].surroundings.bodies_collide:
         return requests
-    alone = sorted(dataclasses.replace(request, company="").digest() for request in requests)
-    company = hashlib.sha256(" ".join(alone).encode()).hexdigest()
-    return [dataclasses.replace(request, company=company) for request in requests]
+    alone = sorted(dataclasses.replace(request, group_digest="").digest() for request in requests)
+    group_digest = hashlib.sha256(" ".join(alone).encode()).hexdigest()
+    return [dataclasses.replace(request, group_digest=group_digest) for request in requests]
 
 
 class Flight:
-    """The motion of one object, flown as far as it was asked for."""
+    """The motion of one object, simulated as far as requested."""
 
     def __init__(self, request, poses, fleet=None):
         self.request = request
         self.poses = poses  # (frames, POSE_SIZE)
-        self.fleet = fleet  # that flies it; None: it is all there
+        self.fleet = fleet  # the fleet that simulates it; None: it is complete
 
     @property
     def flown(self):
-        """How many frames."""
+        """Returns the number of simulated frames."""
         return self.fleet.flown if self.fleet else len(self.poses)
 
     def is_flying(self):
-        """Whether frames are missing that a thread may add; not once it was ended or has failed."""
+        """Whether a thread may still add missing frames; not after it was cancelled or has failed."""
         return self.fleet is not None and self.fleet.is_flying()
 
     def fly_to(self, frame):
-        """Up to a frame of the range, counted from 0."""
+        """Simulates up to a frame of the range, counted from 0."""
         if frame >= self.flown:
             self.fleet.fly_to(frame)
 
     def locations(self):
-        """Of the shape's origin at the frames that were flown (n, 3), in Blender units."""
+        """Returns the locations of the shape's origin at the simulated frames (n, 3), in Blender units."""
         return self.poses[: self.flown, 0:3] / self.request.surroundings.metres_per_unit
 
     def rotations(self):
-        """Quaternions at the frames that were flown (n, 4), their signs continuous."""
+        """Returns the quaternions at the simulated frames (n, 4), with continuous signs."""
         return self.poses[: self.flown, 3:7]
 
     def pose_at(self, frame):
-        """Location (3, Blender units) and quaternion at a frame of the range, counted from 0, or between two: there
-        as linear keys have it. Held before the first and behind the last."""
+        """Returns location (3, Blender units) and quaternion at a frame of the range, counted from 0, interpolated between two frames
+        like linear keys. Constant before the first and after the last."""
         frame = min(max(frame, 0.0), self.request.surroundings.frames - 1.0)
         before = int(frame)
         share = frame - before
@@ -198,13 +198,13 @@ class Flight:
 
 
 class Fleet:
-    """Flights in the same surroundings, flown by one simulation. May be asked by several threads."""
+    """Bodies in the same surroundings, in one simulation. May be used from several threads."""
 
     def __init__(self, surroundings, requests, refused):
-        """`refused`: takes (request, SamaraError) of those that cannot be flown, which are left out."""
+        """`refused`: called with (request, SamaraError) for those that cannot be simulated, which are left out."""
         self.surroundings = surroundings
         self.flown = 0
-        self.cancelled = threading.Event()  # ends its flights within a frame
+        self.cancelled = threading.Event()  # ends the simulation within a frame
         self.failed = False
         self._turn = threading.Condition()
         self._flying = False
@@ -220,7 +220,7 @@ class Fleet:
                 accepted.append(request)
             except SamaraError as error:
                 refused(request, SamaraError(f"{request.name}: {error}"))
-        # Frame by frame, all bodies of one on end, as the library writes them.
+        # By frame, then by body, as the library writes them.
         self._poses = numpy.empty((surroundings.frames, len(accepted), samara_library.POSE_SIZE))
         self.flights = [Flight(request, self._poses[:, i], self) for i, request in enumerate(accepted)]
 
@@ -228,7 +228,7 @@ class Fleet:
         return self.flown < self.surroundings.frames and not self.failed and not self.cancelled.is_set()
 
     def fly_to(self, frame):
-        """Up to a frame of the range, counted from 0. Who asks for an early one need not wait for another's late one."""
+        """Simulates up to a frame of the range, counted from 0. A call for an early frame need not wait for another's late one."""
         while not self.cancelled.is_set():
             with self._turn:
                 while self._flying and self.flown <= frame:
@@ -250,8 +250,8 @@ class Fleet:
 
 
 def fleets_of(requests, refused, count=1):
-    """Fleets for requests, `count` for each surroundings at most, but one where bodies meet. `refused`: takes (request,
-    SamaraError)."""
+    """Returns fleets for requests, at most `count` for each surroundings, but one where bodies collide. `refused`: called with
+    (request, SamaraError)."""
     by_surroundings = {}
     for request in requests:
         by_surroundings.setdefault(request.surroundings, []).append(request)
@@ -262,14 +262,14 @@ def fleets_of(requests, refused, count=1):
             share = group[i::shares]
             try:
                 fleets.append(Fleet(surroundings, share, refused))
-            except SamaraError as error:  # of an obstacle or the wind
+            except SamaraError as error:  # by an obstacle or the wind
                 for request in share:
                     refused(request, error)
     return fleets
 
 
 class FlightJob:
-    """Many flights over all frames, on all cores, beside the thread that started them."""
+    """Simulates many objects over all frames, on all cores, beside the calling thread."""
 
     def __init__(self, requests):
         def refuse(_, error):
@@ -286,12 +286,12 @@ class FlightJob:
         ]
 
     def progress(self):
-        """From 0 to 1."""
+        """Returns the progress from 0 to 1."""
         total = sum(fleet.surroundings.frames for fleet in self._fleets)
         return sum(fleet.flown for fleet in self._fleets) / total if total else 1.0
 
     def is_done(self):
-        """Whether all are flown. Raises what went wrong in one of them."""
+        """Whether all are simulated. Raises the error of one that failed."""
         done = all(future.done() for future in self._futures)
         for future in self._futures:
             if future.done() and future.exception() is not None:
@@ -306,7 +306,7 @@ class FlightJob:
         self.is_done()
 
     def cancel(self):
-        """Ends all flights within a frame."""
+        """Ends all simulations within a frame."""
         for fleet in self._fleets:
             fleet.cancelled.set()
         self._threads.shutdown(wait=True)

@@ -1,4 +1,4 @@
-"""What operators that take their time have in common: they run beside Blender, show progress, and Esc cancels them."""
+"""The base of operators with long work: it runs beside Blender, shows progress, and Esc cancels it."""
 
 import bpy
 
@@ -6,7 +6,7 @@ from .samara_library import SamaraError
 
 
 class JobOperator:
-    """For an operator with three methods of its own:
+    """Base class of an operator that defines three methods:
 
     start(context): prepares the job and returns it; the scene stays as it is. May raise a SamaraError.
     finish(context): puts what the job made into the scene, and returns what an operator returns.
@@ -16,7 +16,7 @@ class JobOperator:
     ended it.
     """
 
-    WHILE_RUNNING = {"RUNNING_MODAL"}  # keeps all else from the user; {"PASS_THROUGH"} does not
+    WHILE_RUNNING = {"RUNNING_MODAL"}  # blocks other input; {"PASS_THROUGH"} does not
     CANCELLED = "cancelled; nothing has changed"
 
     job = None
@@ -30,7 +30,7 @@ class JobOperator:
         return self.finish(context)
 
     def invoke(self, context, event):
-        if bpy.app.background:  # where no timer would ever tick
+        if bpy.app.background:  # which has no timers
             return self.execute(context)
         try:
             self.job = self.start(context)
@@ -61,7 +61,7 @@ class JobOperator:
         return self.finish(context)
 
     def cancel(self, context):
-        """Ends the job where it still runs, and takes the progress away. Blender calls it too, where it closes."""
+        """Ends the job where it still runs, and removes the progress. Blender calls it too when it closes."""
         self.job.cancel()
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()

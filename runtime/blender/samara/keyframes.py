@@ -1,4 +1,4 @@
-"""Keys of location and rotation, many at a time."""
+"""Writes keys of location and rotation, many at a time."""
 
 import bpy
 import numpy
@@ -9,7 +9,7 @@ _LINEAR = 1  # 'LINEAR' among the interpolations of a key
 
 
 def _own_action(o):
-    """The object's action, which no other object shares."""
+    """Returns the object's action, not shared with other objects."""
     data = o.animation_data_create()
     if data.action is None:
         data.action = bpy.data.actions.new(f"{o.name} samara")
@@ -33,8 +33,8 @@ def _insert_channel(action, path, index, frames, values):
 
 
 def insert_poses(o, first_frame, locations, rotations):
-    """Linear keys of location and rotation_quaternion at n frames on end, in place of any before, that give the poses (n, 3)
-    and (n, 4) together with the object's delta transform."""
+    """Replaces all keys of location and rotation_quaternion by linear ones at n consecutive frames that give the poses (n, 3) and
+    (n, 4) together with the object's delta transform."""
     turn_by_quaternions(o)
     locations, rotations = own_channels(o, locations, rotations)
     action = _own_action(o)
@@ -43,6 +43,6 @@ def insert_poses(o, first_frame, locations, rotations):
         for index in range(values.shape[1]):
             _insert_channel(action, path, index, frames, values[:, index])
     data = o.animation_data
-    # From 4.4 on an action has slots, of which the object takes one.
+    # From Blender 4.4 on an action has slots, one of which belongs to the object.
     if getattr(data, "action_slot", True) is None and data.action_suitable_slots:
         data.action_slot = data.action_suitable_slots[0]

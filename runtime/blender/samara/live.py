@@ -13,13 +13,13 @@ from .objects import has_keys, own_channels, request_of, surroundings_of, turn_b
 from .obstacles import ObstaclesOfScene
 from .samara_library import SamaraError
 
-_flights = {}  # by the name of scene and object
-_obstacles = {}  # by the name of the scene: what they depend on, and how they were when last looked at
+_flights = {}  # flights by the names of scene and object
+_obstacles = {}  # by the name of the scene: their dependencies, and their state when last sampled
 _stale = set()  # names of scenes whose obstacles have changed since
-_ahead = []  # threads that fly on while nobody asks
-_busy = False  # while the frames of a scene are gone through
+_ahead = []  # threads that simulate in advance
+_busy = False  # while the frames of a scene are sampled
 _renders = False
-PATIENCE = 0.05  # s: so long a change of the frame waits for flights, but for renders, which wait for all
+PATIENCE = 0.05  # s: how long a frame change waits for simulations; renders wait for all
 
 
 def live_objects(scene):
@@ -27,7 +27,7 @@ def live_objects(scene):
 
 
 def look_at_obstacles(context):
-    """Takes the obstacles of the scene with their ways, frame by frame. Not for handlers."""
+    """Samples the obstacles of the scene with their motions, frame by frame. Not for handlers."""
     global _busy
     scene = context.scene
     _busy = True
@@ -41,7 +41,7 @@ def look_at_obstacles(context):
 
 
 def _known_obstacles(scene):
-    """Those of the last look; in a handler anew only where they stand still."""
+    """Returns the obstacles as last sampled; in a handler they are sampled again only where they do not move."""
     obstacles = ObstaclesOfScene(scene)
     known = _obstacles.get(scene.name)
     if known is not None and known[0] == obstacles.frame and scene.name not in _stale:
@@ -58,14 +58,14 @@ def _known_obstacles(scene):
 
 
 def _drop(keys):
-    """Forgets flights, and ends the fleets that fly on for none."""
+    """Drops flights, and ends the fleets that no flight needs."""
     left = {_flights.pop(key).fleet for key in keys if key in _flights}
     for fleet in left - {None} - {flight.fleet for flight in _flights.values()}:
         fleet.cancelled.set()
 
 
 def _fly(requests, scene, refused):
-    """Flights for what has changed: from the disk where they lie there, else in a few fleets."""
+    """Returns flights for changed requests: from the disk where they are stored, else in a few new fleets."""
     live = {o.name for o in live_objects(scene)} | {request.name for request in requests}
     _drop([key for key in _flights if key[0] == scene.name and key[1] not in live])
     missing, changed, read = [], [], {}
@@ -80,7 +80,7 @@ def _fly(requests, scene, refused):
             missing.append(request)
         else:
             read[key] = flight
-    if missing and missing[0].company:  # those that meet fly together or not at all
+    if missing and missing[0].group_digest:  # colliding bodies are simulated together or not at all
         missing, read = requests, {}
         changed = [(scene.name, request.name) for request in requests]
     _drop(changed)
@@ -94,11 +94,11 @@ def _fly(requests, scene, refused):
 
 
 def _fly_ahead(fleet, folder):
-    """To the end, beside Blender, and onto the disk."""
+    """Simulates to the end beside Blender, and stores the result on disk."""
     try:
         fleet.fly_to(fleet.surroundings.frames - 1)
     except SamaraError:
-        return  # told where its frame is shown
+        return  # reported when its frame is shown
     if fleet.cancelled.is_set():
         return
     for flight in fleet.flights:
@@ -107,23 +107,23 @@ def _fly_ahead(fleet, folder):
 
 
 def wait():
-    """Until all is flown, and lies on the disk."""
+    """Waits until everything is simulated and stored on disk."""
     for thread in _ahead:
         thread.join()
 
 
 def _may_wait():
-    """Whether what is shown must be right rather than soon."""
+    """Whether the shown poses must be final, as for renders, rather than quick."""
     return bpy.app.background or _renders
 
 
 def _put(o, location, rotation):
-    """Where the pose is, whatever the object's delta transform."""
+    """Moves the object to a pose, whatever its delta transform."""
     (o.location,), (o.rotation_quaternion,) = own_channels(o, [location], [rotation])
 
 
 def _show_object(o, scene, deadline):
-    """Returns whether the object is where it will be: else it waits at the last frame that is flown."""
+    """Returns whether the object has its final pose; otherwise it waits at the last simulated frame."""
     flight = _flights[(scene.name, o.name)]
     frame = min(scene.frame_current_final - scene.frame_start, flight.request.surroundings.frames - 1.0)
     if deadline is not None:
@@ -138,8 +138,8 @@ def _show_object(o, scene, deadline):
 
 
 def show(scene):
-    """Puts all live objects where they are at the scene's frame. One that cannot be flown goes off, and says why. Returns
-    whether one of them waits at an earlier frame, since it is not flown so far."""
+    """Moves all live objects to their poses at the scene's frame. An object that cannot be simulated is no longer live, and shows the
+    reason. Returns whether an object waits at an earlier frame that is simulated already."""
     objects = {o.name: o for o in live_objects(scene)}
     if not objects or _busy:
         return False
@@ -176,12 +176,12 @@ def show(scene):
 
 
 def _catch_up():
-    """Shows the frame again, once more of it is flown."""
+    """Shows the frame again when more is simulated."""
     return 0.1 if show(bpy.context.scene) else None
 
 
 def go_live(objects, context):
-    """All of them, or none and a SamaraError."""
+    """Makes all objects live, or none and raises SamaraError."""
     scene = context.scene
     for o in objects:
         if has_keys(o):
@@ -209,17 +209,17 @@ def go_live(objects, context):
 
 
 def go_off(o):
-    """Back to where the object started from."""
+    """Moves the object back to its start."""
     body = o.samara
     body.live = False
     _put(o, body.start_location, body.start_rotation)
     if body.start_rotation_mode != "QUATERNION":
-        o.delta_rotation_quaternion = (1.0, 0.0, 0.0, 0.0)  # that mode has a delta of its own
+        o.delta_rotation_quaternion = (1.0, 0.0, 0.0, 0.0)  # that mode has a separate delta
         o.rotation_mode = body.start_rotation_mode
     _drop([key for key in _flights if key[1] == o.name])
 
 
-# Before the change is evaluated, so that the frame, in the view or rendered, has the poses set here.
+# Before the frame change is evaluated, so that the view and renders have the poses set here.
 @persistent
 def _on_frame_change(scene, _=None):
     show(scene)
@@ -239,7 +239,7 @@ def _on_render_end(*_):
 
 @persistent
 def _on_update(scene, depsgraph):
-    """Notes that an obstacle has changed, and looks at it as soon as no handler runs."""
+    """Marks obstacles as changed; they are sampled again as soon as no handler runs."""
     if _busy or not live_objects(scene):
         return
     obstacles = ObstaclesOfScene(scene)
@@ -252,7 +252,7 @@ def _on_update(scene, depsgraph):
 
 
 def note_change(scene):
-    """Obstacles of the scene have changed: they are looked at again once no handler runs."""
+    """Marks the obstacles of the scene as changed; they are sampled again once no handler runs."""
     _stale.add(scene.name)
     if not bpy.app.background and not bpy.app.timers.is_registered(_look_again):
         bpy.app.timers.register(_look_again, first_interval=0.1)
@@ -276,7 +276,7 @@ def _on_load(*_):
         try:
             look_at_obstacles(bpy.context)
         except SamaraError:
-            return  # told at the first frame change
+            return  # reported at the first frame change
         show(bpy.context.scene)
 
 

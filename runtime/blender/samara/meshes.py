@@ -1,4 +1,4 @@
-"""Meshes of objects as they are shown: with modifiers."""
+"""Meshes of objects with their modifiers."""
 
 import numpy
 
@@ -6,7 +6,7 @@ from .samara_library import SamaraError
 
 
 def evaluated_mesh(o, depsgraph):
-    """Vertices (n, 3), Blender units in the object's own axes, and triangles (m, 3)."""
+    """Returns vertices (n, 3), in Blender units and the object's axes, and triangles (m, 3)."""
     evaluated = o.evaluated_get(depsgraph)
     try:
         mesh = evaluated.to_mesh()

@@ -1,4 +1,4 @@
-"""What a Blender object asks to be flown."""
+"""Makes simulation requests from Blender objects."""
 
 import os
 
@@ -14,19 +14,19 @@ FLUIDS = {"WATER": (998.2, 1.002e-3), "AIR": (1.204, 1.825e-5)}  # kg/m^3, Pa s;
 
 
 def body_file_of(o):
-    """The absolute path of the object's body file, or an empty text."""
+    """Returns the absolute path of the object's body file, or an empty text."""
     file = o.samara.body_file
     return os.path.normpath(bpy.path.abspath(file, library=o.library)) if file else ""
 
 
 def fluid_of(scene):
-    """Density (kg/m^3) and dynamic viscosity (Pa s)."""
+    """Returns density (kg/m^3) and dynamic viscosity (Pa s) of the scene's fluid."""
     settings = scene.samara
     return FLUIDS.get(settings.fluid) or (settings.fluid_density, settings.fluid_viscosity)
 
 
 def flown_objects(context):
-    """The selected objects that have a body file."""
+    """Returns the selected objects that have a body file."""
     objects = [o for o in context.selected_objects if o.samara.body_file]
     if not objects:
         raise SamaraError("no selected object has a body file; select objects, and pick or bake their bodies")
@@ -34,7 +34,7 @@ def flown_objects(context):
 
 
 def has_keys(o):
-    """Whether keys or drivers move or turn the object."""
+    """Whether keys or drivers move or rotate the object."""
     data = o.animation_data
     if data is None:
         return False
@@ -43,22 +43,21 @@ def has_keys(o):
 
 
 def delta_turn(o):
-    """The rotation of the object's delta transform, as a quaternion; that of the mode axis and angle is not reached by Python."""
+    """Returns the rotation of the object's delta transform as a quaternion; Python has no access to that of the axis-angle mode."""
     if o.rotation_mode == "QUATERNION":
         return o.delta_rotation_quaternion.normalized()
     return Quaternion() if o.rotation_mode == "AXIS_ANGLE" else o.delta_rotation_euler.to_quaternion()
 
 
 def turn_by_quaternions(o):
-    """Changes the rotation mode; the delta transform stays what it is."""
+    """Changes the rotation mode and keeps the delta transform."""
     turn = delta_turn(o)
     o.rotation_mode = "QUATERNION"
     o.delta_rotation_quaternion = turn
 
 
 def own_channels(o, locations, rotations):
-    """What the object's location and quaternion have to be for poses (n, 3) and (n, 4), since Blender adds its delta
-    transform to them."""
+    """Returns the locations and quaternions that give poses (n, 3) and (n, 4) together with the object's delta transform."""
     turn = delta_turn(o)
     locations = numpy.asarray(locations) - numpy.array(o.delta_location)
     if turn != Quaternion():
@@ -68,12 +67,12 @@ def own_channels(o, locations, rotations):
 
 
 def scale_of(o):
-    """That of the delta transform included."""
+    """Returns the object's scale, including that of the delta transform."""
     return tuple(a * b for a, b in zip(o.scale, o.delta_scale))
 
 
 def _require_steady_deltas(o):
-    """Refuses keys and drivers of the delta transform, which would move the object besides."""
+    """Raises SamaraError where keys or drivers animate the delta transform, which would move the object too."""
     data = o.animation_data
     curves = [] if data is None else list(data.drivers) + (list(data.action.fcurves) if data.action else [])
     if any(curve.data_path.startswith("delta_") for curve in curves):
@@ -81,7 +80,7 @@ def _require_steady_deltas(o):
 
 
 def start_pose(o):
-    """Location (Blender units) and quaternion from which the object starts: that of now, or of when it went live."""
+    """Returns location (Blender units) and quaternion of the object's start: the current ones, or those when it became live."""
     if o.samara.live:
         return tuple(o.samara.start_location), tuple(o.samara.start_rotation)
     _require_steady_deltas(o)
@@ -98,7 +97,7 @@ def start_pose(o):
 
 
 def wind_of(scene):
-    """The scene's wind as the keys of [wind], in TOML and SI units; empty where there is none."""
+    """Returns the scene's wind as the keys of [wind], in TOML and SI units; empty where there is none."""
     wind, unit = scene.samara, metres_per_unit(scene)
     if not wind.use_wind:
         return ""
@@ -127,7 +126,7 @@ def wind_of(scene):
 
 
 def surroundings_of(scene, obstacles):
-    """What the scene's bodies share. obstacles: those of obstacles.py."""
+    """Returns the settings that the scene's bodies share. obstacles: those of obstacles.py."""
     settings, unit = scene.samara, metres_per_unit(scene)
     fluid_density, fluid_viscosity = fluid_of(scene)
     return Surroundings(
@@ -148,7 +147,7 @@ def surroundings_of(scene, obstacles):
 
 
 def _mass_of(body, unit):
-    """Mass, centre and inertia that are given with the object; () where they do not count."""
+    """Returns the mass, centre and inertia that are given with the object; () where they are not used."""
     if body.mass_source != "MASS":
         return ()
     center = tuple(unit * x for x in body.center_of_mass) if body.use_center_of_mass else None
@@ -159,8 +158,9 @@ def _mass_of(body, unit):
 
 
 def request_of(o, surroundings, let_go=None):
-    """The object's flight over the scene's frame range. let_go: where keys lead it until then, so many frames after the first,
-    and the velocities of its origin (Blender units a second) and its turn (rad/s) with which they let it go where it is now."""
+    """Returns the request of the object's simulation over the scene's frame range. let_go: for an object that follows its keys at
+    first, the number of frames until its release at the current pose, and the linear velocity of its origin (Blender units per
+    second) and its angular velocity (rad/s) there."""
     body, unit = o.samara, surroundings.metres_per_unit
     if body.is_obstacle:
         raise SamaraError(f"{o.name}: is an obstacle, and does not fly; untick Obstacle, or leave it out")

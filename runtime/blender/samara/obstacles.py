@@ -1,4 +1,4 @@
-"""Objects that bodies touch: their meshes, and their ways over the scene's frame range."""
+"""Objects that bodies collide with: their meshes, and their motions over the scene's frame range."""
 
 import numpy
 
@@ -23,7 +23,7 @@ def is_moved(o):
 
 
 def _shape(o, depsgraph, unit):
-    """Vertices (m) in the axes of the object's rotation, its scale included, and triangles."""
+    """Returns vertices (m) in the object's rotated axes, with its scale applied, and triangles."""
     vertices, triangles = evaluated_mesh(o, depsgraph)
     stretch = _stretch(o, depsgraph)
     if numpy.linalg.det(stretch) < 0.0:
@@ -32,7 +32,7 @@ def _shape(o, depsgraph, unit):
 
 
 def _stretch(o, depsgraph):
-    """What the object's matrix does beside to move and to turn."""
+    """Returns the part of the object's matrix without translation and rotation."""
     matrix = o.evaluated_get(depsgraph).matrix_world
     turn = numpy.array(matrix.to_quaternion().to_matrix())
     return turn.T @ numpy.array(matrix.to_3x3())
@@ -44,23 +44,23 @@ def _key(o, depsgraph, time, unit):
 
 
 class ObstaclesOfScene:
-    """The obstacles of a scene. Taken frame by frame, where some may move, which no handler may do."""
+    """The obstacles of a scene. Where some may move, they are sampled frame by frame, which is not allowed in handlers."""
 
     def __init__(self, scene):
         self.objects = obstacle_objects(scene)
         self.move = any(is_moved(o) for o in self.objects)
         self._unit = metres_per_unit(scene)
-        # What their arrays depend on beside the objects: where these stand still, their names and the unit alone.
+        # The dependencies of their arrays besides the objects: for static ones only names and unit.
         self.frame = (tuple(o.name for o in self.objects), self._unit)
         if self.move:
             self.frame += (scene.frame_start, frame_count(scene), seconds_per_frame(scene))
 
     def taken_at(self, depsgraph):
-        """The obstacles as they stand now."""
+        """Returns the obstacles at their current places."""
         return tuple(self._obstacle(o, depsgraph, [_key(o, depsgraph, 0.0, self._unit)]) for o in self.objects)
 
     def taken_over_frames(self, context):
-        """With their ways from the scene's first frame to its last; the scene is back at its frame then."""
+        """Returns the obstacles with their motions from the scene's first frame to its last; restores the scene's frame."""
         scene, now = context.scene, context.scene.frame_current_final
         count, seconds = frame_count(scene), seconds_per_frame(scene)
         depsgraph = context.evaluated_depsgraph_get()
@@ -68,7 +68,7 @@ class ObstaclesOfScene:
             return self.taken_at(depsgraph)
         keys = {o.name: [] for o in self.objects}
         try:
-            for i in range(count - 1, -1, -1):  # so that meshes are those of the first frame
+            for i in range(count - 1, -1, -1):  # backwards, so that meshes are those of the first frame
                 scene.frame_set(scene.frame_start + i)
                 for o in self.objects:
                     keys[o.name].append(_key(o, depsgraph, i * seconds, self._unit))

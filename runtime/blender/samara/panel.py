@@ -58,7 +58,7 @@ class SAMARA_PT_body(bpy.types.Panel):
 
 
 def _draw_file(layout, o):
-    """What the file holds, or why it cannot be read. Returns its body; None where there is none."""
+    """Shows the content of the body file, or why it cannot be read. Returns its body; None where there is none."""
     if not o.samara.body_file:
         return None
     try:

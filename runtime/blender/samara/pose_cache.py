@@ -1,4 +1,4 @@
-"""Flights on disk, so that a scene that is opened again, or a setting that is taken back, is not flown anew.
+"""Stores simulated poses on disk, so that reopened scenes and reverted settings are not simulated again.
 
 A file is named by the digest of all that the motion depends on, so that none is ever out of date. The folder lies beside
 the .blend file, or among temporary files as long as it is not saved, and may be deleted at any time.
@@ -13,11 +13,11 @@ import numpy
 from . import samara_library
 from .flight import Flight
 
-MOST_BYTES = 512 * 2**20  # of all files; the oldest go first
+MOST_BYTES = 512 * 2**20  # of all files; the oldest are deleted first
 
 
 def folder_of_file():
-    """Where the open .blend file's flights are."""
+    """Returns the folder of the open .blend file's flights."""
     if bpy.data.filepath:
         return bpy.path.abspath("//samara/live")
     return os.path.join(tempfile.gettempdir(), f"samara-{os.getuid()}", "live")
@@ -28,11 +28,11 @@ def _file(request, folder):
 
 
 def read(request, folder):
-    """The whole flight of a request, or None."""
+    """Returns the complete poses of a request, or None."""
     file = _file(request, folder)
     try:
         poses = numpy.load(file, allow_pickle=False)
-        os.utime(file)  # the oldest are those that nobody reads
+        os.utime(file)  # the least recently read files are the oldest
     except (OSError, ValueError, EOFError):
         return None
     frames = request.surroundings.frames
@@ -42,7 +42,7 @@ def read(request, folder):
 
 
 def write(flight, folder):
-    """Keeps a flight that is flown to its end. A disk that is full or may not be written to costs the time to fly anew."""
+    """Stores a complete flight. Where the disk is full or read-only, it will be simulated again."""
     file = _file(flight.request, folder)
     try:
         os.makedirs(folder, exist_ok=True)
@@ -59,7 +59,7 @@ def write(flight, folder):
 
 
 def trim(folder):
-    """Deletes the oldest files, so that those that stay have MOST_BYTES at most."""
+    """Deletes the oldest files until the others have at most MOST_BYTES."""
     try:
         files = [entry for entry in os.scandir(folder) if entry.name.endswith((".npy", ".part"))]
         kept = 0

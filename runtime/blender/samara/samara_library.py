@@ -1,4 +1,4 @@
-"""The C interface of samara (samara.h) in Python: bodies, settings, simulations. Knows nothing of Blender.
+"""The C interface of samara (samara.h) in Python: bodies, settings, simulations. Does not import Blender's modules.
 
 SI units, world z up, quaternions (w, x, y, z). Every failure is a SamaraError with one line of text.
 """
@@ -21,7 +21,7 @@ POSE_SIZE = 13
 
 
 class SamaraError(Exception):
-    """What the library, or a check of the add-on, refused, in one line."""
+    """An error of the library, or of a check of the add-on, in one line."""
 
 
 class Settings(ctypes.Structure):
@@ -110,7 +110,7 @@ class Obstacle(ctypes.Structure):
     ]
 
 
-# Every function's result and arguments, but for the buffer of the error and its size, which end those that can fail.
+# Result and arguments of each function, without the buffer for errors and its size at the end of those that can fail.
 _PLAIN = {
     "samara_api_version": (c_int, []),
     "samara_version": (c_char_p, []),
@@ -144,7 +144,7 @@ _FALLIBLE = {
 
 @functools.lru_cache(maxsize=1)
 def library():
-    """The loaded library. A library that is missing or does not fit is asked for anew at the next call."""
+    """Returns the loaded library. Where it is missing or incompatible, the next call tries again."""
     try:
         loaded = ctypes.CDLL(LIBRARY)
         for name, (result, arguments) in _PLAIN.items():
@@ -169,12 +169,12 @@ def _call(name, *arguments):
 
 
 def version():
-    """That of the library, such as "0.1.0"."""
+    """Returns the library's version, such as "0.1.0"."""
     return library().samara_version().decode()
 
 
 class Body:
-    """What a body file holds. May be used from several threads."""
+    """The content of a body file. May be used from several threads."""
 
     def __init__(self, path):
         self.handle = c_void_p()
@@ -191,7 +191,7 @@ class Body:
 
     @property
     def mass(self):
-        """kg: what the file says; 0 where it says nothing."""
+        """Returns the mass in the file (kg); 0 where it has none."""
         return library().samara_body_mass(self.handle)
 
     @property
@@ -207,13 +207,13 @@ class Body:
         return bool(library().samara_body_has_surface_loads(self.handle))
 
     def loads_in_use(self, choice):
-        """TABLE, SURFACE or COEFFICIENTS: the choice, or, of AUTO, the best that the file holds."""
+        """Returns TABLE, SURFACE or COEFFICIENTS: the choice, or for AUTO the best that the file holds."""
         if choice != "AUTO":
             return choice
         return "TABLE" if self.has_tables else "SURFACE" if self.has_surface_loads else "COEFFICIENTS"
 
     def surface(self):
-        """Vertices (n, 3), metres in the shape's axes, and triangles (m, 3), counter-clockwise from outside."""
+        """Returns vertices (n, 3), in metres and the shape's axes, and triangles (m, 3), counter-clockwise from outside."""
         vertices = numpy.empty((library().samara_body_vertex_count(self.handle), 3))
         triangles = numpy.empty((library().samara_body_triangle_count(self.handle), 3), numpy.int32)
         _call("samara_body_get_vertices", self.handle, vertices.ctypes.data, vertices.size)
@@ -225,7 +225,7 @@ _bodies = {}
 
 
 def body_of_file(path):
-    """The body of a file, read once for as long as the file stays as it is."""
+    """Returns the body of a file, which is read again only where the file has changed."""
     if not path:
         raise SamaraError("no body file is chosen; pick one or bake one")
     try:
@@ -251,7 +251,7 @@ def default_body_group():
 
 
 class Simulation:
-    """Bodies of several groups among obstacles. A call lets other threads run meanwhile; one thread at a time may call."""
+    """A simulation of bodies of several groups among obstacles. Other threads run during a call; only one thread may call at a time."""
 
     def __init__(self, settings):
         self.handle = c_void_p()
@@ -262,8 +262,8 @@ class Simulation:
             library().samara_simulation_free(self.handle)
 
     def add_obstacle(self, name, vertices, triangles, friction, keys):
-        """Before all bodies. vertices: (n, 3) doubles; triangles: (m, 3) int32; keys: (k, 8) doubles, of time, place and
-        quaternion each, k at least 1."""
+        """Adds an obstacle; to be called before bodies are added. vertices: (n, 3) doubles; triangles: (m, 3) int32; keys: (k, 8)
+        doubles with time, place and quaternion, k at least 1."""
         obstacle = Obstacle()
         _call("samara_default_obstacle", byref(obstacle), ctypes.sizeof(obstacle))
         obstacle.name = name.encode()
@@ -274,11 +274,11 @@ class Simulation:
         _call("samara_simulation_add_obstacle", self.handle, byref(obstacle), None)
 
     def set_wind(self, text):
-        """The keys of [wind] of a scene, as TOML."""
+        """Sets the wind by the keys of [wind] of a scene, as TOML."""
         _call("samara_set_wind", self.handle, text.encode())
 
     def add(self, body, group):
-        """Returns the number of the first of its bodies."""
+        """Adds a group and returns the number of its first body."""
         first = c_size_t()
         _call("samara_simulation_add", self.handle, body.handle, byref(group), byref(first))
         return first.value
@@ -294,9 +294,9 @@ class Simulation:
         _call("samara_set_poses", self.handle, index, 1, pose.ctypes.data, 0)
 
     def advance_to(self, time):
-        """To a time (s) not before the one of the last call."""
+        """Advances to a time (s), not before that of the last call."""
         _call("samara_advance_to", self.handle, time)
 
     def read_poses(self, rows):
-        """Puts the poses of all bodies into rows of POSE_SIZE doubles, (bodies, POSE_SIZE) without gaps."""
+        """Copies the poses of all bodies into an array (bodies, POSE_SIZE) of doubles without gaps."""
         _call("samara_get_poses", self.handle, 0, len(rows), rows.ctypes.data, 0)

@@ -1,4 +1,4 @@
-"""Operators: simulate to keyframes, live, copy the settings."""
+"""Operators that simulate to keyframes, toggle live simulation, and copy the settings."""
 
 import math
 
@@ -14,12 +14,12 @@ from .objects import flown_objects, has_keys, request_of, surroundings_of
 from .samara_library import SamaraError
 
 
-MOST_KEYED_SPEED = 100.0  # m/s: what is faster is a jump, as of emitters
-_BEFORE = 0.25  # frames before the release, or after the return, from which the keys' velocities are taken
+MOST_KEYED_SPEED = 100.0  # m/s: a faster motion is a jump, such as of emitters
+_BEFORE = 0.25  # frames before the release, or after the return, between which the keys' velocities are measured
 
 
 def led_frames(o):
-    """How many frames keys lead the object: whole ones, so that the keys of a flight that is made again lead it alike."""
+    """Returns for how many frames the object follows its keys: a whole number, so that repeated simulations give the same."""
     return max(1, round(o.samara.release)) if has_keys(o) and o.samara.release > 0.0 else 0
 
 
@@ -28,7 +28,7 @@ def _set_frame(scene, frame):
 
 
 def _let_go(scene, o, surroundings):
-    """The flight of an object from where keys have it at its release, with their velocities there."""
+    """Returns the request for an object that is released from its keys, with their pose and velocities there."""
     frames = led_frames(o)
     _set_frame(scene, scene.frame_start + frames - _BEFORE)
     before_location, before_rotation, _ = o.matrix_basis.decompose()
@@ -49,31 +49,31 @@ def _let_go(scene, o, surroundings):
 
 
 class _KeyedWay:
-    """Where keys have an object: until its release, and again from its return on."""
+    """The poses by keys of an object: until its release, and again from its return on."""
 
     def __init__(self):
         self.before = []  # poses (location, quaternion) at the frames before the release
-        self.returns = None  # frame, counted from 0, from which on they have it again
-        self.after = []  # poses from there on
-        self.blend = 0  # frames over which it goes over to them
-        self.moving = None  # with which they take it up: Blender units and a rotation vector a frame
+        self.returns = None  # frame, counted from 0, from which it follows its keys again
+        self.after = []  # poses from the return on
+        self.blend = 0  # frames over which it is blended into them
+        self.moving = None  # velocities at the return: Blender units and a rotation vector per frame
 
     def taken_up(self, frames_before):
-        """The pose that leads evenly to that of the return."""
+        """Returns the pose that reaches that of the return at constant velocity."""
         location, rotation = self.after[0]
         moving, turning = self.moving
         turn = Quaternion(turning.normalized(), -frames_before * turning.length)
         return location - frames_before * moving, turn @ rotation
 
     def put_into(self, locations, rotations):
-        """Into the poses (n, 3) and (n, 4) of a flight."""
+        """Inserts the poses by keys into the simulated poses (n, 3) and (n, 4)."""
         for i, (location, rotation) in enumerate(self.before):
             locations[i], rotations[i] = location, rotation
         if self.returns is None:
             return
         for i in range(max(0, self.returns - self.blend + 1), min(self.returns, len(locations))):
             share = 1.0 - (self.returns - i) / self.blend
-            share *= share * (3.0 - 2.0 * share)  # both ends with the velocity of their own
+            share *= share * (3.0 - 2.0 * share)  # keeps the velocities at both ends
             location, rotation = self.taken_up(self.returns - i)
             locations[i] += share * (numpy.array(location) - locations[i])
             rotations[i] = Quaternion(rotations[i]).slerp(rotation, share)
@@ -82,7 +82,7 @@ class _KeyedWay:
 
 
 def _return_frame(o, surroundings):
-    """The frame, counted from 0, from which on keys have the object again; None: never."""
+    """Returns the frame, counted from 0, from which the object follows its keys again; None: never."""
     body = o.samara
     if body.returns == 0:
         return None
@@ -94,7 +94,7 @@ def _return_frame(o, surroundings):
 
 
 def _keyed_ways(scene, objects, surroundings):
-    """By name, of those that keys lead or have again. Leaves the scene at another frame."""
+    """Returns the poses by keys of the objects that follow them at times, by name. Leaves the scene at another frame."""
     ways = {}
     for o in objects:
         returns = _return_frame(o, surroundings)
@@ -133,8 +133,8 @@ def _keyed_ways(scene, objects, surroundings):
 
 
 def requests_of(context, objects):
-    """The objects' flights, from their poses at the scene's first frame where keys move them, or at their release, else of
-    now; and the ways of those that keys lead until then or have again later, by name."""
+    """Returns the objects' requests, which start at their poses at the scene's first frame where keys move them, at their release,
+    or else at the current ones; and the poses by keys of those that follow them at times, by name."""
     scene = context.scene
     now = scene.frame_current_final
     obstacles = live.look_at_obstacles(context)
@@ -155,7 +155,7 @@ def requests_of(context, objects):
 
 
 def insert_flights(context, objects, flights, ways):
-    """Keys at every frame of the scene's range: those that led an object, or have it again, stay, one a frame."""
+    """Writes keys at every frame of the scene's range; where an object follows its keys, they are kept, one per frame."""
     scene = context.scene
     for o, flight in zip(objects, flights):
         if o.samara.live:
@@ -170,8 +170,8 @@ def insert_flights(context, objects, flights, ways):
 class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
     bl_idname = "samara.simulate"
     bl_label = "Simulate to Keyframes"
-    bl_description = "Flies the selected objects over the scene's frame range and keys their location and rotation"
-    bl_options = {"UNDO"}  # not REGISTER: to change a past call must not run it all again
+    bl_description = "Simulates the selected objects over the scene's frame range and keys their location and rotation"
+    bl_options = {"UNDO"}  # not REGISTER, by which changed settings of a past call would run it again
     CANCELLED = "simulation cancelled; nothing has changed"
 
     def start(self, context):

@@ -1,3 +1,5 @@
+#include "converter/cases/case_reduction.hpp"
+
 #include <algorithm>
 #include <numbers>
 #include <regex>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
 #include "converter/cases/samples_csv.hpp"
 #include "converter/openfoam/foam_file.hpp"
 #include "converter/openfoam/foam_history.hpp"
@@ -143,7 +144,7 @@ TEST_F(CaseReduction, LeavesOutTheCaseWhoseTurbulenceFailed) {
     EXPECT_EQ(reduction.left_out[0].reason, "its turbulence's case case_01: diverged");
 }
 
-TEST_F(CaseReduction, RefusesTurbulenceOfAnotherFlowOrPurpose) {
+TEST_F(CaseReduction, RejectsTurbulenceOfAnotherFlowOrPurpose) {
     folder_.change_plan([](json& plan) { plan["cases"][0]["turbulence_from"] = "case_07"; });
     EXPECT_THAT(error(), HasSubstr("the case case_00 takes its turbulence from case_07, which is no case"));
     folder_.change_plan([](json& plan) {
@@ -153,7 +154,7 @@ TEST_F(CaseReduction, RefusesTurbulenceOfAnotherFlowOrPurpose) {
     EXPECT_THAT(error(), HasSubstr("takes its turbulence from case_01, which is no case"));
 }
 
-TEST_F(CaseReduction, RefusesWhatIsNotSolvedUnlessToldOtherwise) {
+TEST_F(CaseReduction, RejectsWhatIsNotSolvedUnlessAskedToLeaveItOut) {
     std::filesystem::remove(folder_.case_path(4) / "provenance.json");
     EXPECT_THAT(error(), HasSubstr("the case case_04 is not solved (1 of 6 are not)"));
     const FolderReduction reduction =
@@ -162,7 +163,7 @@ TEST_F(CaseReduction, RefusesWhatIsNotSolvedUnlessToldOtherwise) {
     EXPECT_EQ(reduction.left_out.at(0).reason, "is not solved yet");
 }
 
-TEST_F(CaseReduction, AveragesTheLastQuarterWhereNobodySaysFromWhen) {
+TEST_F(CaseReduction, AveragesTheLastQuarterByDefault) {
     folder_.write("case_00/provenance.json", R"({"closure": "kEpsilon"})");
     const SolvedCase solved = reduced().front();
     // Of 20 iterations the last 5: off their mean by 0.01, -0.01, 0.01, -0.01 and 0.
@@ -233,7 +234,7 @@ TEST_F(CaseReduction, OfLaminarCasesHasNoTurbulence) {
     EXPECT_LT(sample.entry.force.dot(sample.direction), 0.0);
 }
 
-TEST_F(CaseReduction, RefusesTurbulenceThatIsNotPositive) {
+TEST_F(CaseReduction, RejectsTurbulenceThatIsNotPositive) {
     for (const char* const name : {"20/k", "20/epsilon"}) {
         const std::string file = std::string("case_03/") + name;
         const std::string text = read_bytes(folder_.path() / file);
@@ -280,7 +281,7 @@ TEST_F(CaseReduction, NamesBrokenFilesInOneLine) {
     EXPECT_THAT(error(), HasSubstr("cellZones:15: has no cell zone 'shell' (it has: wake)"));
 }
 
-TEST_F(CaseReduction, RefusesTheSameCaseTwice) {
+TEST_F(CaseReduction, RejectsTheSameCaseTwice) {
     folder_.change_plan([](json& plan) {
         json twin = plan["cases"][2];
         twin["name"] = "twin";
@@ -299,8 +300,8 @@ TEST_F(CaseReduction, RefusesTheSameCaseTwice) {
     EXPECT_THAT(error(), HasSubstr("plan.json: 'solved_by' is \"nobody\", not samara or user"));
 }
 
-/// The same cases as a user would have solved them: in SI units and in axes of his own, without any of the
-/// files that `samara bake` leaves, each with its mesh.
+/// The cases of CaseReduction as a user would have solved them: in SI units and in axes of his own, without
+/// any of the files that `samara bake` leaves, each with its mesh.
 class UsersCases : public CaseReduction {
   protected:
     UsersCases() {
@@ -333,7 +334,7 @@ class UsersCases : public CaseReduction {
     std::vector<DirectionSample> expected_;
 
   private:
-    /// Rewrites a history with every vector turned and scaled.
+    /// Rewrites a history with every vector rotated and scaled.
     void scale_vectors(const std::string& file, double scale) const {
         const FoamHistory history = read_history(folder_.path() / file);
         std::string text = "# Time total_x total_y total_z\n";

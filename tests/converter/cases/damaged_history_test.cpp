@@ -1,4 +1,4 @@
-// What became of a solved case's histories after it was solved: each fault is refused in one line that names
+// Histories of a solved case that were damaged afterwards: each error is reported in one line that names
 // file, time and remedy, and none is averaged.
 
 #include <numbers>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converter/cases/case_folder_reduction.hpp"
+#include "converter/cases/case_reduction.hpp"
 #include "load_laws.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "solved_folder.hpp"
@@ -143,7 +143,7 @@ TEST_F(DamagedHistory, TimesThatAreMissingFromAllAreAGap) {
     EXPECT_THAT(error(), HasSubstr("0/force.dat: has nothing between the times 11 and 14"));
 }
 
-TEST_F(DamagedHistory, ACopyOfAnotherRunIsRefused) {
+TEST_F(DamagedHistory, ACopyOfAnotherRunIsRejected) {
     folder_.write(forces + "16/force.dat", text_of(in_second_run(history_names[0])));
     EXPECT_THAT(error(),
                 EndsWith("forces/16/force.dat: begins at the time 15, before the run of its folder; it is of "
@@ -167,7 +167,7 @@ TEST_F(DamagedHistory, AnyChangeSinceTheCaseWasSolvedIsFoundByTheMeansThatWereNo
         folder_.write(name, whole);
     }
     folder_.write("case_01/provenance.json", R"({"averaging_start": 10, "force": [1, "x", 2]})");
-    EXPECT_THAT(error(), HasSubstr("case_01: in provenance.json an entry is missing or of the wrong kind"));
+    EXPECT_THAT(error(), HasSubstr("case_01: in provenance.json an entry is missing or of the wrong type"));
 }
 
 }  // namespace

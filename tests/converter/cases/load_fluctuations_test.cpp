@@ -67,7 +67,7 @@ TEST(SeriesFluctuation, OfAConstantIsNone) {
     EXPECT_FALSE(found.peak_frequency.has_value());
 }
 
-/// An unsteady case whose force swings along x, about 0.4, and whose moment about z.
+/// An unsteady case whose force oscillates along x, about 0.4, and whose moment about z.
 class LoadFluctuationsOfACase : public testing::Test {
   protected:
     LoadFluctuationsOfACase() {

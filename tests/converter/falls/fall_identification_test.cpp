@@ -20,8 +20,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// With numbers (motion_parameters.hpp) in turn above and below the first of each pair by `share` of the
-// second.
+// Returns coefficients with numbers (motion_parameters.hpp) alternately above and below the first of each
+// pair by `share` of the second.
 DynamicCoefficients coefficients_off_by(const Body& body, double share) {
     const std::pair<double, double> terms[] = {{0.0, 0.5}, {0.3, 0.25}, {0.3, 0.25}, {0.0, 0.25}};
     const MotionParameters parameters(body);
@@ -34,7 +34,7 @@ DynamicCoefficients coefficients_off_by(const Body& body, double share) {
     return parameters.coefficients(numbers);
 }
 
-// Of a body that flutters without end, about which what is expected is wrong.
+// A fall of a body that flutters steadily, for which the expectation is wrong.
 DynamicCoefficients true_coefficients(const Body& body) {
     return coefficients_off_by(body, 1.0);
 }
@@ -54,7 +54,7 @@ double relative_difference(const Matrix3d& found, const Matrix3d& expected) {
     return (found - expected).norm() / expected.norm();
 }
 
-// Of what was wrong with the expectation, which pulls: what one fall may leave.
+// The share of the expectation's error that may remain after one fall.
 constexpr double remaining = 0.15;
 
 constexpr double noise = 0.05;  // over U, and U/L
@@ -75,7 +75,7 @@ class FallIdentification : public testing::Test {
     static inline Identification found_;
 };
 
-TEST_F(FallIdentification, FindsTheCoefficientsThatAFallWasFlownWith) {
+TEST_F(FallIdentification, FindsTheCoefficientsThatAFallWasSimulatedWith) {
     const DynamicCoefficients& found = found_.coefficients.values;
     EXPECT_LT(relative_difference(found.transport, true_.transport), 0.03);
     EXPECT_EQ(found.half_length, true_.half_length);
@@ -83,7 +83,7 @@ TEST_F(FallIdentification, FindsTheCoefficientsThatAFallWasFlownWith) {
 
 // Rotational drag and that in spin are hard to tell from each other in one fall; what they do together is
 // not.
-TEST_F(FallIdentification, FindsTheRotationalDragOfAsMuchTurningAsTheFallHas) {
+TEST_F(FallIdentification, FindsTheRotationalDragOfTheRotationOfTheFall) {
     const DynamicCoefficients& found = found_.coefficients.values;
     const double speed = found_.falls.front().solved.mean_velocity.norm();
     const double tip_speed = true_.half_length * found_.falls.front().solved.rms_angular_speed;
@@ -114,7 +114,7 @@ TEST_F(FallIdentification, StatesErrorsThatHoldTheTruth) {
     }
 }
 
-// Else the test above would hold of any coefficients.
+// Otherwise the test above would hold for any coefficients.
 TEST_F(FallIdentification, StatesSmallErrorsOfWhatAFallSays) {
     const IdentifiedCoefficients& found = found_.coefficients;
     EXPECT_LT(found.standard_errors.transport.norm(), 0.1 * found.values.transport.norm());
@@ -171,7 +171,7 @@ TEST_F(FallIdentification, GivesCoefficientsThatABodyFileTakes) {
 TEST_F(FallIdentification, IsLessCertainOfANoisyFall) {
     const Identification noisy = identify_motion(body_, {with_noise(record_, noise)});
     EXPECT_GT(noisy.prediction_error, noise);
-    // It is in the states that flights begin with, and in the wake that is counted along them.
+    // It determines the states at the start of simulations, and the wake along them.
     EXPECT_LT(noisy.prediction_error, 3.0 * noise);
     EXPECT_GT(noisy.coefficients.standard_errors.rotational_drag.norm(),
               1.2 * found_.coefficients.standard_errors.rotational_drag.norm());
@@ -209,16 +209,16 @@ TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
     fall.angular_velocity = {0.5, 4.0, -2.0};
     Body body = body_;
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
-    const auto& [name, solved, flown, balance] = fly_fall(body, test::flown_record(body, fall, true_));
+    const auto& [name, solved, flown, balance] = simulate_fall(body, test::flown_record(body, fall, true_));
     EXPECT_LT((flown.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
     EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
 }
 
-TEST_F(FallIdentification, ShowsAFallAndItsFlightWithGravityDownwards) {
+TEST_F(FallIdentification, ShowsAFallAndItsSimulationWithGravityDownwards) {
     Body body = body_;
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
     const FallMotions motions = fall_motions(body, record_);
-    const FlownFall metrics = fly_fall(body, record_);
+    const SimulatedFall metrics = simulate_fall(body, record_);
     EXPECT_EQ(motions.solved.times, motions.flown.times);
     for (const Motion* motion : {&motions.solved, &motions.flown}) {
         EXPECT_LT((motion->gravity.normalized() + Vector3d::UnitZ()).norm(), 1e-12);
@@ -250,24 +250,24 @@ TEST_F(FallIdentification, LeavesOutAStretchOfTheFallAndFindsTheSame) {
     EXPECT_LT(difference.norm(), 0.01 * true_.transport.norm());
 }
 
-// Fitted to its segments alone the body falls 8 % too slowly here, and swings a tenth too little.
+// Fitted only to its segments the body falls 8 % too slowly here, with oscillations a tenth too small.
 TEST_F(FallIdentification, KeepsTheMetricsOfTheWholeFallWhereTheModelCannotFollowIt) {
     const Identification without = identify_motion(body_, {record_}, {.terms = {"rotational drag"}});
     EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
     const auto& [name, solved, flown, balance] = without.falls.front();
-    // Of the descent within what the fit counts as off, of the others within half of it.
+    // The descent speed is within fitted_miss, the others within half of it.
     EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.05 * solved.descent_speed);
     EXPECT_NEAR(flown.inclination_amplitude, solved.inclination_amplitude,
                 0.125 * solved.inclination_amplitude);
     EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.125 * solved.rms_angular_speed);
 }
 
-TEST_F(FallIdentification, RefusesToIdentifyFromNothing) {
+TEST_F(FallIdentification, RejectsToIdentifyFromNothing) {
     EXPECT_EQ(test::error_of([&] { static_cast<void>(identify_motion(body_, {})); }),
               "exact: there is no fall to identify coefficients from");
 }
 
-TEST_F(FallIdentification, RefusesAFallThatIsTooShort) {
+TEST_F(FallIdentification, RejectsAFallThatIsTooShort) {
     FallRecord record = record_;
     record.fall.name = "fall_07";
     record.samples.resize(899);
@@ -280,7 +280,7 @@ TEST_F(FallIdentification, RefusesAFallThatIsTooShort) {
     EXPECT_EQ(identify_motion(body_, {record}).segments, 12);
 }
 
-TEST_F(FallIdentification, RefusesAFallOfAnotherBody) {
+TEST_F(FallIdentification, RejectsAFallOfAnotherBody) {
     FallRecord record = record_;
     record.fall.name = "fall_07";
     record.fall.length *= 1.01;
@@ -289,7 +289,7 @@ TEST_F(FallIdentification, RefusesAFallOfAnotherBody) {
     EXPECT_THAT(error, Not(HasSubstr("\n")));
 }
 
-TEST_F(FallIdentification, RefusesAFallWhoseStepsAreUneven) {
+TEST_F(FallIdentification, RejectsAFallWhoseStepsAreUneven) {
     FallRecord record = record_;
     record.fall.name = "fall_07";
     record.samples.erase(record.samples.begin() + 500);

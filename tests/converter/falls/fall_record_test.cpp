@@ -9,14 +9,16 @@
 #include <gtest/gtest.h>
 
 #include "support/expect_error.hpp"
+#include "support/known_bodies.hpp"
 #include "support/temporary_folder.hpp"
+#include "synthetic_fall.hpp"
 
 namespace samara {
 namespace {
 
 using testing::HasSubstr;
 
-// What OpenFOAM v1912 writes before the numbers.
+// The headings by OpenFOAM v1912.
 constexpr const char* state_heading =
     "# Motion State      \n# Angle Units       : radians\n"
     "# Time              \tcentreOfRotation\tcentreOfMass\trotation\tvelocity\tomega\n";
@@ -80,23 +82,23 @@ TEST_F(FallRecordFiles, GivePlaceVelocityAndLoadsAboutTheCentreOfMass) {
     EXPECT_EQ(first.moment, Vector3d(1, 7, 5));
     // (1, 2, 4) x (1, 0, 0) = (0, 4, -2)
     EXPECT_EQ(read.samples[1].moment, Vector3d(5, 1, 7));
-    EXPECT_NEAR(read.samples[1].turn(1, 0), std::sin(0.1), 1e-15);
+    EXPECT_NEAR(read.samples[1].rotation(1, 0), std::sin(0.1), 1e-15);
 }
 
-TEST_F(FallRecordFiles, TakeTheSolversAnglesForTurnsOfThePrincipalAxes) {
-    FreeFall turned = fall();
-    turned.principal_axes = axes_given_to_openfoam();
-    turned.time_step = 1.0;
-    write_fall(turned);
+TEST_F(FallRecordFiles, TakeTheSolversAnglesForRotationsOfThePrincipalAxes) {
+    FreeFall rotated = fall();
+    rotated.principal_axes = axes_given_to_openfoam();
+    rotated.time_step = 1.0;
+    write_fall(rotated);
     write("state", "sixDoFRigidBodyState.dat",
           fmt::format("{}1\t(0 0 0)\t(0 0 0)\t{}\t(0 0 0)\t(0 0 0)\n", state_heading, angles_openfoam_wrote));
     for (const char* file : {"force.dat", "moment.dat"}) {
         write("forces", file, force_heading + std::string("1\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
     }
-    EXPECT_LT((record().samples[0].turn - Matrix3d::Identity()).norm(), 1e-10);
+    EXPECT_LT((record().samples[0].rotation - Matrix3d::Identity()).norm(), 1e-10);
 }
 
-TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
+TEST_F(FallRecordFiles, AreRejectedWhereOneIsMissingOrOfOtherTimes) {
     const auto error = [&] { return test::error_of([&] { static_cast<void>(record()); }); };
     EXPECT_THAT(error(), HasSubstr("fall.json: is not there"));
     write_fall(fall());
@@ -110,7 +112,7 @@ TEST_F(FallRecordFiles, AreRefusedWhereOneIsMissingOrOfOtherTimes) {
     EXPECT_THAT(error(), HasSubstr("are not of the same times"));
 }
 
-TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
+TEST_F(FallRecordFiles, AreRejectedWhereAnyIsCutShortEmptiedOrBeyondReason) {
     write_fall(fall());
     const std::string state =
         "0.5 (0 0 0) (0 0 0) (0 0 0) (0 0 0) (0 0 0)\n1 (0 0 0) (0 0 0) (0 0 0) (0 0 0) (0 0 0)\n";
@@ -155,12 +157,12 @@ TEST_F(FallRecordFiles, AreRefusedWhereAnyIsCutShortEmptiedOrBeyondReason) {
 struct Motion {
     FreeFall fall;
     std::function<Vector3d(double)> force = [](double) { return Vector3d::Zero().eval(); };
-    /// Of (turn, angular velocity): the angular acceleration.
+    /// The angular acceleration by rotation and angular velocity.
     std::function<Vector3d(const Matrix3d&, const Vector3d&)> angular_acceleration;
     std::function<Vector3d(const Matrix3d&)> moment = [](const Matrix3d&) { return Vector3d::Zero().eval(); };
 };
 
-// By steps a hundred times as short.
+// Integrates with steps a hundred times as short.
 FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
     constexpr int substeps = 100;
     constexpr double step = 0.005;
@@ -174,18 +176,18 @@ FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
             const double h = step / substeps;
             const double middle = now.time + 0.5 * h;
             now.velocity += h / motion.fall.mass * (weight + motion.force(middle));
-            const Vector3d guess =
-                now.angular_velocity + 0.5 * h * motion.angular_acceleration(now.turn, now.angular_velocity);
-            const auto turned = [&](double duration) -> Matrix3d {
+            const Vector3d guess = now.angular_velocity +
+                                   0.5 * h * motion.angular_acceleration(now.rotation, now.angular_velocity);
+            const auto rotated = [&](double duration) -> Matrix3d {
                 return Eigen::AngleAxisd(guess.norm() * duration, guess.normalized()).toRotationMatrix() *
-                       now.turn;
+                       now.rotation;
             };
-            now.angular_velocity += h * motion.angular_acceleration(turned(0.5 * h), guess);
-            now.turn = turned(h);
+            now.angular_velocity += h * motion.angular_acceleration(rotated(0.5 * h), guess);
+            now.rotation = rotated(h);
             now.time += h;
         }
         now.force = motion.force(now.time);
-        now.moment = motion.moment(now.turn);
+        now.moment = motion.moment(now.rotation);
         record.samples.push_back(now);
     }
     return record;
@@ -205,9 +207,9 @@ FreeFall uneven_body() {
 // Euler's equations with the gyroscopic term times `share`, under the moment.
 auto eulers_equations(const FreeFall& fall, double share,
                       const std::function<Vector3d(const Matrix3d&)>& moment) {
-    return [=](const Matrix3d& turn, const Vector3d& angular_velocity) -> Vector3d {
-        const Matrix3d inertia = turn * fall.inertia() * turn.transpose();
-        return inertia.ldlt().solve(moment(turn) -
+    return [=](const Matrix3d& rotation, const Vector3d& angular_velocity) -> Vector3d {
+        const Matrix3d inertia = rotation * fall.inertia() * rotation.transpose();
+        return inertia.ldlt().solve(moment(rotation) -
                                     share * angular_velocity.cross(inertia * angular_velocity));
     };
 }
@@ -229,8 +231,8 @@ TEST(FallBalance, HoldsTheMomentOfBuoyancyOnABodyHungOffItsCentroid) {
     motion.fall = uneven_body();
     motion.fall.center_of_mass = {0.02, 0.05, -0.1};
     // Buoyancy at the centroid: (-R c) x (-V g).
-    const auto of_buoyancy = [fall = motion.fall](const Matrix3d& turn) -> Vector3d {
-        return (turn * -fall.center_of_mass).cross(-fall.volume * fall.gravity);
+    const auto of_buoyancy = [fall = motion.fall](const Matrix3d& rotation) -> Vector3d {
+        return (rotation * -fall.center_of_mass).cross(-fall.volume * fall.gravity);
     };
     motion.angular_acceleration = eulers_equations(motion.fall, 1.0, of_buoyancy);
     EXPECT_LT(balance_of(solved(motion, tumble)).moment, 1e-3);
@@ -255,7 +257,7 @@ TEST(FallBalance, ShowsAForceThatIsOffByAsMuch) {
     EXPECT_NEAR(balance_of(record).force, 0.05 / 1.05, 2e-3);
 }
 
-TEST(FallBalance, DoesNotTakeNoiseOnABodyThatDoesNotTurnForAnError) {
+TEST(FallBalance, DoesNotTakeNoiseOnABodyThatDoesNotRotateForAnError) {
     Motion motion;
     motion.fall = uneven_body();
     motion.fall.principal_moments.setConstant(0.05);
@@ -275,6 +277,77 @@ TEST(FallBalance, IsZeroWithoutSamples) {
     EXPECT_EQ(balance_of(record).force, 0.0);
     record.samples.resize(2);
     EXPECT_EQ(balance_of(record).moment, 0.0);
+}
+
+TEST(FallingBody, HasTheMassTheInertiaAndTheFluidOfTheFall) {
+    const Body body = test::ellipsoid_with_tables();
+    const FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
+    const ImmersedBody immersed = falling_body(body, fall);
+    EXPECT_NEAR(immersed.mass, 1200.0 * body.moments.volume, 1e-12);
+    EXPECT_LT((immersed.own_inertia - uniform_inertia(body.moments, 1200.0)).norm(),
+              1e-9 * immersed.own_inertia.norm());
+    EXPECT_EQ(immersed.fluid_density, 1000.0);
+    EXPECT_NEAR(immersed.viscosity, 1e-3, 1e-15);
+    // The centre of mass is at (0.01, -0.005, 0.008) L from the centroid in case axes, which are the body's
+    // y, z, x.
+    const Vector3d offset = fall.length * Vector3d(0.008, 0.01, -0.005);
+    EXPECT_LT((immersed.center_of_buoyancy + offset).norm(), 1e-12);
+    EXPECT_EQ(immersed.loads, Loads::table);
+    EXPECT_EQ(immersed.turbulence, Turbulence::none);
+}
+
+TEST(FallingBody, RejectsAFallOfABodyOfAnotherSize) {
+    FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
+    fall.length *= 1.0 + 1e-5;
+    EXPECT_THAT(test::error_of([&] { static_cast<void>(falling_body(test::ellipsoid_with_tables(), fall)); }),
+                testing::StartsWith("fall_00: the fall is of another body than exact: its length L is "));
+}
+
+TEST(FallingBody, FallsInSIUnitsAndTheBodysAxesAtTheStart) {
+    const FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
+    const Vector3d gravity = gravity_of(fall);
+    EXPECT_NEAR(gravity.norm(), 9.81, 1e-9);
+    EXPECT_LT((gravity.normalized() - Vector3d(-0.64, 0.5, 0.58).normalized()).norm(), 1e-12);
+}
+
+TEST(FallingBody, HasTheStatesOfItsRecordAfterThatOfTheStart) {
+    FallRecord record;
+    record.fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
+    record.fall.velocity = {0.1, -0.2, 0.3};
+    record.fall.angular_velocity = {0.5, 0.7, -0.2};
+    std::vector<BodyState> expected;
+    for (int i = 1; i <= 5; ++i) {
+        BodyState state = test::tumbling_state(0.1 * i, 2.0 - i);
+        state.position = Vector3d(0.01 * i, 0.3, -0.02 * i * i);
+        state.orientation = Quaterniond(1.0, 0.3 * i, -0.1, 0.2).normalized();
+        expected.push_back(state);
+        record.samples.push_back(test::sample_of(record.fall, 0.1 * i, state));
+    }
+    const std::vector<BodyState> states = states_of(record);
+    ASSERT_EQ(states.size(), 6u);
+    EXPECT_LT(states[0].position.norm(), 1e-15);
+    EXPECT_NEAR(states[0].orientation.angularDistance(Quaterniond::Identity()), 0.0, 1e-7);
+    // The case's axes are the body's y, z and x.
+    EXPECT_LT((states[0].velocity.tail<3>() / record.fall.speed - Vector3d(0.3, 0.1, -0.2)).norm(), 1e-12);
+    EXPECT_LT((states[0].velocity.head<3>() * record.fall.time_unit() - Vector3d(-0.2, 0.5, 0.7)).norm(),
+              1e-12);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_LT((states[i + 1].position - expected[i].position).norm(), 1e-14);
+        EXPECT_LT(states[i + 1].orientation.angularDistance(expected[i].orientation), 1e-7);
+        EXPECT_LT((states[i + 1].velocity - expected[i].velocity).norm(), 1e-12);
+    }
+}
+
+TEST(FallingBody, MakesAMotionOfItsStatesAtEvenTimes) {
+    const Body body = test::ellipsoid_with_tables();
+    std::vector<BodyState> states(3);
+    states[2].position = Vector3d(1, 2, 3);
+    const Motion motion = motion_of(body, Vector3d(0, 0, -9.81), 0.25, states);
+    EXPECT_EQ(motion.frame_rate, 4.0);
+    EXPECT_EQ(motion.times, (std::vector<double>{0.0, 0.25, 0.5}));
+    ASSERT_EQ(motion.bodies.size(), 1u);
+    ASSERT_EQ(motion.bodies[0].poses.size(), 3u);
+    EXPECT_NEAR(std::abs(motion.bodies[0].shortest_axis.x()), 1.0, 1e-12);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Matrix3d some_turn() {
     return Eigen::AngleAxisd(1.1, Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
 }
 
-Body turned(Body body, const Matrix3d& rotation) {
+Body rotated(Body body, const Matrix3d& rotation) {
     for (Vector3d& vertex : body.surface.vertices) vertex = rotation * vertex;
     body.moments.centroid = rotation * body.moments.centroid;
     body.moments.second_moments = rotation * body.moments.second_moments * rotation.transpose();
@@ -67,7 +67,7 @@ TEST(MotionParameters, AreExpectedWithinTheirBounds) {
 }
 
 TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
-    const Body body = turned(ellipsoid_of(uneven), some_turn());
+    const Body body = rotated(ellipsoid_of(uneven), some_turn());
     const MotionParameters parameters(body);
     const DynamicCoefficients expected = parameters.coefficients(parameters.expected());
     const Matrix3d added_mass = body.kirchhoff->matrix.bottomRightCorner<3, 3>();
@@ -83,7 +83,7 @@ TEST(MotionParameters, ExpectTheTransportThatTakesThePotentialFlowsOwnAway) {
 }
 
 TEST(MotionParameters, GiveSymmetricTensorsAndNoNegativeDragAnywhereWithinTheBounds) {
-    const MotionParameters parameters(turned(ellipsoid_of(uneven), some_turn()));
+    const MotionParameters parameters(rotated(ellipsoid_of(uneven), some_turn()));
     for (unsigned seed = 0; seed < 20; ++seed) {
         const DynamicCoefficients coefficients =
             parameters.coefficients(numbers_within_bounds(parameters, seed));
@@ -127,7 +127,7 @@ TEST(MotionParameters, OfASphereHaveOneNumberForAllAxes) {
     }
 }
 
-TEST(MotionParameters, LeaveABodyWhoseAxesAreAllAlikeTheSteadyMomentThatAloneTurnsIt) {
+TEST(MotionParameters, LeaveABodyWhoseAxesAreAllAlikeItsSteadyMoment) {
     EXPECT_EQ(MotionParameters(ellipsoid_of(Vector3d::Ones())).settling_length(),
               settling_length_of_alike_axes);
     for (const Vector3d& semi_axes : {Vector3d(1.0, 4.0, 4.0), Vector3d(1.0, 1.0, 4.0), uneven}) {
@@ -162,18 +162,18 @@ TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
     EXPECT_THROW(MotionParameters(body, {"transports"}), Error);
 }
 
-TEST(MotionParameters, TurnWithTheBody) {
+TEST(MotionParameters, RotateWithTheBody) {
     const Body body = ellipsoid_of(uneven);
     const Matrix3d rotation = some_turn();
     const MotionParameters parameters(body);
     const VectorXd numbers = numbers_within_bounds(parameters, 3);
     const DynamicCoefficients coefficients = parameters.coefficients(numbers);
-    const DynamicCoefficients of_turned = MotionParameters(turned(body, rotation)).coefficients(numbers);
+    const DynamicCoefficients of_rotated = MotionParameters(rotated(body, rotation)).coefficients(numbers);
     for (const TensorOfMotion& tensor : tensors_of_motion) {
         const Matrix3d expected = rotation * (coefficients.*tensor.member) * rotation.transpose();
-        EXPECT_LE((of_turned.*tensor.member - expected).norm(), 1e-9 * expected.norm()) << tensor.name;
+        EXPECT_LE((of_rotated.*tensor.member - expected).norm(), 1e-9 * expected.norm()) << tensor.name;
     }
-    EXPECT_NEAR(of_turned.half_length, coefficients.half_length, 1e-12);
+    EXPECT_NEAR(of_rotated.half_length, coefficients.half_length, 1e-12);
 }
 
 TEST(MotionParameters, GrowWithTheBodyAsTheirUnitsSay) {
@@ -207,10 +207,10 @@ TEST(MotionParameters, GiveTheErrorOfEachEntryAlongPrincipalAxes) {
     EXPECT_NEAR(standard_errors.unsteady_factor, errors[errors.size() - 1], 1e-15);
 }
 
-// Of a turned body every entry depends on several numbers: the spread of entries under numbers that are
+// For a rotated body every entry depends on several numbers: the spread of entries under numbers that are
 // drawn.
 TEST(MotionParameters, GiveTheErrorOfEachEntryAcrossPrincipalAxes) {
-    const MotionParameters parameters(turned(ellipsoid_of(uneven), some_turn()));
+    const MotionParameters parameters(rotated(ellipsoid_of(uneven), some_turn()));
     const VectorXd numbers = parameters.expected();
     const VectorXd errors = VectorXd::LinSpaced(numbers.size(), 0.01, 0.2);
     const Matrix3d mean = parameters.coefficients(numbers).transport;

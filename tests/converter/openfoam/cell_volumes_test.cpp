@@ -60,7 +60,7 @@ TEST_F(TwoCells, AWarpedFaceGivesOneCellWhatItTakesFromTheOther) {
     EXPECT_NEAR(volumes[0], block, 0.01 * block);
 }
 
-TEST_F(TwoCells, MeshesThatDoNotFitAreRefused) {
+TEST_F(TwoCells, MeshesThatDoNotFitAreRejected) {
     EXPECT_THAT(test::error_of([&] { cell_volumes(folder_.path(), {2}); }),
                 HasSubstr("the mesh has no cell 2, which its zone names"));
     write("owner", "labelList", "9(0 0 0 0 0 0 1 1 1)");

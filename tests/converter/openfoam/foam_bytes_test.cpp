@@ -1,8 +1,7 @@
-#include "converter/openfoam/foam_bytes.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "converter/openfoam/foam_scanner.hpp"
 #include "gzip.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -60,7 +59,7 @@ TEST_F(FoamBytesOfAFile, OfJoinedGzipFilesFollowOneAnother) {
     EXPECT_EQ(read_foam_bytes(folder_.path() / "k").text, "one " + long_text());
 }
 
-TEST_F(FoamBytesOfAFile, AreRefusedWhereverAPackedFileIsCutShort) {
+TEST_F(FoamBytesOfAFile, AreRejectedWhereverAPackedFileIsCutShort) {
     const std::string packed = test::gzipped("internalField uniform 1;");
     for (std::size_t length = 2; length < packed.size(); ++length) {
         EXPECT_EQ(error_of(packed.substr(0, length)), "the compressed file is cut short") << length;
@@ -68,7 +67,7 @@ TEST_F(FoamBytesOfAFile, AreRefusedWhereverAPackedFileIsCutShort) {
     EXPECT_EQ(error_of(test::gzipped(long_text()).substr(0, 200000)), "the compressed file is cut short");
 }
 
-TEST_F(FoamBytesOfAFile, AreRefusedWhereAPackedFileIsDamagedOrForeign) {
+TEST_F(FoamBytesOfAFile, AreRejectedWhereAPackedFileIsDamagedOrForeign) {
     std::string packed = test::gzipped(long_text());
     packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
     EXPECT_EQ(error_of(packed), "the compressed file is damaged");

@@ -1,11 +1,10 @@
-#include "converter/openfoam/foam_data.hpp"
-
 #include <cstdint>
 #include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "converter/openfoam/foam_file.hpp"
 #include "paths.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -28,7 +27,7 @@ class FoamData : public testing::Test {
         return test::error_of([&] { require_foam_data(folder_.file("U", text)); });
     }
     void expect_data(const std::string& text) { EXPECT_NO_THROW(require_foam_data(folder_.file("U", text))); }
-    /// The fault of a field with this in its boundaryField.
+    /// Returns the error of a field with this text in its boundaryField.
     std::string error_of_patch(const std::string& entry) {
         return error(header("ascii", "volVectorField") + "boundaryField\n{\n    far\n    {\n" + entry +
                      "\n    }\n}\n");
@@ -65,7 +64,7 @@ TEST_F(FoamData, LetsAFileBeThatEndsEarly) {
     expect_data(header("binary", "volVectorField") + "internalField nonuniform List<vector> \n9\n(abc");
 }
 
-TEST_F(FoamData, RefusesWhatOpenFoamWouldRunOrRead) {
+TEST_F(FoamData, RejectsWhatOpenFoamWouldRunOrRead) {
     EXPECT_THAT(error_of_patch("value #calc \"1\";"),
                 EndsWith("U:18: holds '#calc', which no solver writes there"));
     EXPECT_THAT(error_of_patch("#include \"/etc/passwd\""), HasSubstr("holds '#include'"));
@@ -76,7 +75,7 @@ TEST_F(FoamData, RefusesWhatOpenFoamWouldRunOrRead) {
     EXPECT_THAT(error_of_patch("code #{ system(\"x\"); #};"), HasSubstr("holds 'code'"));
 }
 
-TEST_F(FoamData, RefusesBytesThatAreHiddenInABlockOfAnotherForm) {
+TEST_F(FoamData, RejectsBytesThatAreHiddenInABlockOfAnotherForm) {
     EXPECT_THAT(error(header("binary", "volVectorField") + "internalField nonuniform List<word> 2(#calc);"),
                 HasSubstr("holds a binary 'List<word>'"));
     EXPECT_THAT(error(header("binary", "volScalarField") +

@@ -137,7 +137,7 @@ TEST_F(FoamFile, BinaryOfOtherWidths) {
     EXPECT_THAT(read_cell_zone(zones, "shell"), ElementsAre(1LL << 40));
 }
 
-TEST_F(FoamFile, OtherMachinesBinaryIsRefused) {
+TEST_F(FoamFile, OtherMachinesBinaryIsRejected) {
     const std::string arch = "    arch \"MSB;label=32;scalar=64\";\n";
     const auto k = folder_.file("k", header("volScalarField", "binary", arch));
     EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }),
@@ -183,7 +183,7 @@ TEST_F(FoamFile, HeadersOfManyVersionsAreUnderstood) {
                 ElementsAre(1.0, 2.0));
 }
 
-TEST_F(FoamFile, FacesOfBothKinds) {
+TEST_F(FoamFile, FacesOfBothTypes) {
     const auto expect_two = [&](const std::filesystem::path& file) {
         const FoamFaces faces = read_faces(file);
         EXPECT_EQ(faces.size(), 2U);
@@ -240,7 +240,7 @@ TEST_F(FoamFile, ErrorsNameFileAndLine) {
     EXPECT_THAT(error_in("/* endless"), HasSubstr(":16: this comment has no end"));
 }
 
-TEST_F(FoamFile, FilesOfAnotherKindAreRefused) {
+TEST_F(FoamFile, FilesOfAnotherTypeAreRejected) {
     const auto empty = folder_.file("empty", "");
     const auto text = folder_.file("text", "hello world");
     const auto garbage = folder_.file("garbage", std::string("\x89HDF\r\n\x1a\n\0\0", 10));
@@ -251,14 +251,14 @@ TEST_F(FoamFile, FilesOfAnotherKindAreRefused) {
                 HasSubstr("there is no such file"));
 }
 
-TEST_F(FoamFile, BinaryThatIsCutShortIsRefused) {
+TEST_F(FoamFile, BinaryThatIsCutShortIsRejected) {
     const auto k =
         folder_.file("k", header("volScalarField", "binary", "    arch \"LSB;label=32;scalar=64\";\n") +
                               "internalField nonuniform List<scalar> \n3\n(" + raw<double>({4.0}));
     EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }), HasSubstr("the file ends 16 bytes too early"));
 }
 
-TEST_F(FoamFile, IsRefusedWhereverItIsCutShort) {
+TEST_F(FoamFile, IsRejectedWhereverItIsCutShort) {
     const std::string ascii = header("volScalarField") +
                               "dimensions [0 2 -2 0 0 0 0];\ninternalField nonuniform List<scalar> 2(0.5 4);";
     const std::string binary = header("volScalarField", "binary", "    arch \"LSB;label=32;scalar=64\";\n") +

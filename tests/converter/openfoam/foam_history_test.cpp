@@ -94,7 +94,7 @@ TEST(FoamHistory, ReadsNumbersBesideVectorsThatAHeadingNamesByOneWord) {
     EXPECT_THAT(history.column("velocity_y", 2.0), ElementsAre(5));
 }
 
-TEST(FoamHistory, RefusesVectorsThatAHeadingDoesNotName) {
+TEST(FoamHistory, RejectsVectorsThatAHeadingDoesNotName) {
     const test::TemporaryFolder folder;
     const auto file = folder.file("f.dat", "# Time a b\n1 (1 2 3)\n");
     EXPECT_THAT(test::error_of([&] { read_history(file); }), EndsWith("f.dat:2: has 4 values for 3 columns"));
@@ -140,7 +140,7 @@ TEST_F(JoinedHistory, LaterRunsReplaceWhatTheyDoAnew) {
     EXPECT_THAT(values(), ElementsAre(10, 20, 32, 42));
 }
 
-TEST_F(JoinedHistory, IsRefusedWhereItsEndIsCutInALine) {
+TEST_F(JoinedHistory, IsRejectedWhereItsEndIsCutInALine) {
     write("0/f.dat", "1 10\n2 20\n");
     write("2/f.dat", "3 31\n4 4");
     EXPECT_THAT(

@@ -1,4 +1,4 @@
-// What OpenFOAM itself writes of one small flow, in all its formats, reduced: the flow past a cube of
+// The output of OpenFOAM for one small flow, in all its formats, reduced: the flow past a cube of
 // cube-flow/.
 #include <fstream>
 #include <memory>

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "converter/report/case_history.hpp"
 #include "solved_folder.hpp"
 #include "support/expect_error.hpp"
 
@@ -78,7 +77,7 @@ TEST_F(CaseParts, NameACaseThatFailedAndOneWhoseHistoryIsGone) {
     EXPECT_THAT(report.missing, Contains(HasSubstr(folder_.names()[1])));
 }
 
-TEST_F(CaseParts, OfAnotherBodyAreRefused) {
+TEST_F(CaseParts, OfAnotherBodyAreRejected) {
     const Body other = test::box_body({0.02, 0.04, 0.09});
     EXPECT_THAT(test::error_of([&] { read_cases_for_report(folder_.path(), other, [](double) {}); }),
                 HasSubstr("holds the cases of another body"));

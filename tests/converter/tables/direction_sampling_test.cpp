@@ -49,7 +49,7 @@ TEST(RequiredDirections, ACubeNeedsOneForEachPartitionOfTheSubdivisions) {
     EXPECT_EQ(required_directions(symmetry, 4).size(), 4U);
 }
 
-TEST(RequiredDirections, FivefoldTurnsMergeNoNodesBetweenNodes) {
+TEST(RequiredDirections, FivefoldRotationsMergeNoNodesBetweenNodes) {
     const double turn = 2.0 * std::numbers::pi / 5.0;
     const Symmetry symmetry =
         test::generated_by({Eigen::AngleAxisd(turn, Vector3d::UnitZ()).toRotationMatrix()});
@@ -98,7 +98,7 @@ TEST(RequiredDirections, AnAxialBodyNeedsAnArcFromItsAxisWhicheverColumnThatIs) 
     }
 }
 
-TEST(RequiredDirections, NoSubdivisionsAreRefused) {
+TEST(RequiredDirections, NoSubdivisionsAreRejected) {
     EXPECT_THROW(required_directions(Symmetry{}, 0), Error);
 }
 

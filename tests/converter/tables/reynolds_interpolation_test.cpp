@@ -25,7 +25,7 @@ TEST(ReynoldsInterpolation, PredictsTheErrorInTheMiddleOfTheIntervals) {
     const double middle = std::sqrt(1e3 * 1e4);
     const double lookup = 0.5 * (nodes[1][0].force.x() + nodes[2][0].force.x());
     const double exact = lookup - entry_at(middle).force.x();
-    // One component in three carries it; the figure is their root mean square.
+    // Only one component in three has the error; the result is their root mean square.
     EXPECT_NEAR(std::sqrt(3.0 * variance.force.x()), exact, 1e-12);
     EXPECT_GT(variance.turbulent_kinetic_energy, 0.0);
     EXPECT_EQ(variance.dissipation_rate, 0.0);

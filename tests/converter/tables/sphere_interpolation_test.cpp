@@ -64,7 +64,7 @@ TEST(SphereInterpolation, ConvergesToASmoothFunctionWithThirdOrder) {
     EXPECT_GT(std::log(coarse / fine) / std::log(3.0), 2.8);
 }
 
-TEST(SphereInterpolation, TurnsWithItsPoints) {
+TEST(SphereInterpolation, RotatesWithItsPoints) {
     const Matrix3d turn = test::some_rotation();
     std::vector<Vector3d> turned;
     for (const Vector3d& point : nodes(3)) turned.emplace_back(-turn * point);

@@ -35,7 +35,7 @@ std::vector<DirectionSample> samples_of(const Symmetry& symmetry, int n,
     return samples;
 }
 
-/// What a steady flow may add to the trend, smoothly.
+/// A smooth deviation from the trend.
 const test::BoxLaw smooth{Vector3d(0.6, 0.6, 1.9), Vector3d(0.3, 0.3, 0.5)};
 
 /// The largest error of a fit over directions between its samples.

@@ -17,7 +17,7 @@ DirectionSample sample_with(const Vector3d& direction, const Vector3d& force, co
     return sample;
 }
 
-TEST(TransformedLoads, AMirrorKeepsTheMomentAcrossItAndTurnsThatWithinIt) {
+TEST(TransformedLoads, AMirrorKeepsTheMomentAcrossItAndReversesThatWithinIt) {
     const LoadEntry mirrored =
         transformed({Vector3d(1, 2, 3), Vector3d(4, 5, 6), 0.1, 0.2}, Vector3d(-1, 1, 1).asDiagonal());
     EXPECT_EQ(mirrored.force, Vector3d(-1, 2, 3));
@@ -26,7 +26,7 @@ TEST(TransformedLoads, AMirrorKeepsTheMomentAcrossItAndTurnsThatWithinIt) {
     EXPECT_EQ(mirrored.dissipation_rate, 0.2);
 }
 
-TEST(TransformedLoads, AMomentOfAForceTurnsAndMirrorsWithItsArm) {
+TEST(TransformedLoads, AMomentOfAForceRotatesAndMirrorsWithItsArm) {
     const Vector3d arm(0.3, -0.7, 0.2);
     const Vector3d force(1.0, 0.4, -2.0);
     for (const Matrix3d& element : test::cube_symmetry().elements) {
@@ -92,7 +92,7 @@ TEST(SymmetricPart, DirectionsWithoutSymmetryTakeTheErrorOfTheOthers) {
 
 TEST(SymmetricPart, OfABodyOfRevolutionLiesInThePlaneOfItsAxis) {
     Symmetry cone;
-    cone.kind = Symmetry::Type::axial;
+    cone.type = Symmetry::Type::axial;
     cone.axes = test::some_rotation();
     cone.axis = cone.axes.col(1);
     std::vector<DirectionSample> samples = {
@@ -108,7 +108,7 @@ TEST(SymmetricPart, OfABodyOfRevolutionLiesInThePlaneOfItsAxis) {
 
 TEST(SymmetricPart, OfACylinderBroadsideIsDragAlone) {
     Symmetry cylinder;
-    cylinder.kind = Symmetry::Type::axial;
+    cylinder.type = Symmetry::Type::axial;
     cylinder.elements.emplace_back(Vector3d(1, 1, -1).asDiagonal());
     std::vector<DirectionSample> samples = {
         sample_with(Vector3d::UnitX(), Vector3d(-1, 0.1, 0.2), Vector3d(0.1, 0.2, 0.7))};
@@ -119,7 +119,7 @@ TEST(SymmetricPart, OfACylinderBroadsideIsDragAlone) {
 
 TEST(SymmetricPart, OfASphereIsDragAloneWithItsSideForceAsError) {
     Symmetry sphere;
-    sphere.kind = Symmetry::Type::spherical;
+    sphere.type = Symmetry::Type::spherical;
     std::vector<DirectionSample> samples = {
         sample_with(Vector3d::UnitX(), Vector3d(-0.4, 0.03, 0.04), Vector3d(0.0, 0.003, 0.0))};
     keep_symmetric_part(sphere, samples);

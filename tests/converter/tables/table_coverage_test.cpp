@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converter/falls/model_errors.hpp"
 #include "converter/tables/direction_sampling.hpp"
+#include "converter/tables/model_errors.hpp"
 #include "load_laws.hpp"
 #include "symmetry_groups.hpp"
 #include "table_cases.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 using Law = std::function<LoadEntry(const Vector3d&)>;
 
-/// What is wrong with the cases. Vectors are wrong by a fraction of their length.
+/// The errors of the cases. Those of vectors are relative to their length.
 struct CaseErrors {
     double noise = 0.0;  ///< of each component and of k and epsilon, independent
     double mesh = 0.0;   ///< of the table's mesh, the same sense everywhere; twice as much on the coarser one
@@ -259,7 +259,7 @@ TEST(TableCoverage, OfABluffEllipsoidIsNineInTenBetweenTheNodes) {
 }
 
 TEST(TableCoverage, OfAStallingPlateIsNineInTenWhereTheNodesSeeTheStall) {
-    // k rises in one smooth step there, which the leaving out of nodes makes look worse than it is.
+    // k rises in one smooth step there, whose error leaving out nodes overestimates.
     expect_honest({test::box_symmetry(), plate_law, 4, 8, {}}, 1, 8.0);
     expect_honest({test::box_symmetry(), plate_law, 6, 12, {}}, 1, 4.0);
     expect_honest({test::box_symmetry(), plate_law, 4, 8, all_errors}, 30, 3.6);
@@ -279,7 +279,8 @@ TEST(TableCoverage, OfFewDirectionsOnTheLastMeshIsNineInTen) {
     expect_honest({cone_symmetry(), cone_law, 6, 12, errors, 3}, 30, 3.6);
 }
 
-/// The share of one source in a bake with errors of one kind, or nothing where the tables do not name it.
+/// Returns the share of one source in a bake with errors of one type; nothing where the tables do not name
+/// it.
 std::optional<ErrorShare> share_of(ErrorSource source, const CaseErrors& sizes, unsigned seed = 1) {
     std::vector<SolvedCase> cases = baked(test::box_symmetry(), 4, ellipsoid_law, sizes, seed);
     for (const ErrorShare& share : test::filled(test::box_symmetry(), 8, cases).error_sources) {

@@ -71,7 +71,7 @@ TEST(FilledMap, IsExactForASquarePrism) {
     EXPECT_LT(largest_error(test::square_prism_symmetry(), 4, turbulence_too), 1e-14);
 }
 
-TEST(FilledMap, IsExactInTurnedShapeAxes) {
+TEST(FilledMap, IsExactInRotatedShapeAxes) {
     const Matrix3d rotation = test::some_rotation();
     EXPECT_LT(largest_error(test::turned(test::box_symmetry(), rotation), 4, test::BoxLaw{}), 1e-14);
 }
@@ -94,7 +94,7 @@ TEST(FilledMap, IsExactForAPropellerOfFiveBlades) {
         test::generated_by({Eigen::AngleAxisd(fifth, Vector3d::UnitZ()).toRotationMatrix()});
     const auto law = [](const Vector3d& d) {
         LoadEntry entry = test::AxialLaw{Vector3d::UnitZ(), 0.5}(d);
-        entry.moment += 0.2 * d.z() * Vector3d::UnitZ();  // it turns in the wind
+        entry.moment += 0.2 * d.z() * Vector3d::UnitZ();  // a windmill moment
         entry.dissipation_rate += 0.001 * std::cos(5.0 * std::atan2(d.y(), d.x())) * (1.0 - d.z() * d.z());
         return entry;
     };
@@ -166,7 +166,7 @@ TEST(FilledMap, OfABodyOfRevolutionNeverOvershootsItsSamples) {
 
 TEST(FilledMap, OfASphereIsTheSameDragEverywhere) {
     Symmetry sphere;
-    sphere.kind = Symmetry::Type::spherical;
+    sphere.type = Symmetry::Type::spherical;
     const auto law = [](const Vector3d& d) { return LoadEntry{-0.47 * d, Vector3d::Zero(), 0.01, 0.02}; };
     EXPECT_LT(largest_error(sphere, 4, law), 1e-15);
 }
@@ -344,7 +344,7 @@ TEST(FilledMap, KeepsTurbulencePositiveAndLaminarFlowWithoutAny) {
     }
 }
 
-TEST(FilledMap, RefusesAMixtureOfLaminarAndTurbulentCases) {
+TEST(FilledMap, RejectsAMixtureOfLaminarAndTurbulentCases) {
     std::vector<SolvedCase> cases = solve(test::box_symmetry(), 2, test::BoxLaw{});
     cases[1].sample.entry.turbulent_kinetic_energy = 0.0;
     EXPECT_EQ(test::error_of([&] { test::filled(test::box_symmetry(), 2, cases); }),

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "converter/wind/foam_wind.hpp"
+#include "converter/wind/wind_readers.hpp"
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/files/content_hash.hpp"
@@ -82,12 +82,12 @@ TEST_F(FoamWind, AFieldThatIsThePlaceIsReadAsThePlace) {
     EXPECT_GT(node, 3U * 30U);
 }
 
-TEST_F(FoamWind, YUpIsTurned) {
+TEST_F(FoamWind, YUpBecomesZUp) {
     const WindGrid upright = read_foam_wind(places(), {.spacing = 0.25});
-    const WindGrid turned = read_foam_wind(places(), {.spacing = 0.25, .y_up = true});
-    EXPECT_EQ(turned.nodes[2], upright.nodes[1]);
-    EXPECT_EQ(turned.nodes[1], upright.nodes[2]);
-    EXPECT_EQ(turned.origin.z(), upright.origin.y());
+    const WindGrid z_up = read_foam_wind(places(), {.spacing = 0.25, .y_up = true});
+    EXPECT_EQ(z_up.nodes[2], upright.nodes[1]);
+    EXPECT_EQ(z_up.nodes[1], upright.nodes[2]);
+    EXPECT_EQ(z_up.origin.z(), upright.origin.y());
 }
 
 TEST_F(FoamWind, TimesAreThoseThatWereWritten) {
@@ -112,7 +112,7 @@ TEST_F(FoamWind, TimesAreThoseThatWereWritten) {
     EXPECT_EQ(slowest, 0.0);  // within the cube
 }
 
-TEST_F(FoamWind, WhatIsNoSolvedCaseIsRefused) {
+TEST_F(FoamWind, WhatIsNoSolvedCaseIsRejected) {
     EXPECT_THAT(error(folder_->path() / "nowhere"), HasSubstr("nowhere"));
     const fs::path unsolved = folder_->path() / "unsolved";
     fs::copy(places(), unsolved, fs::copy_options::recursive);

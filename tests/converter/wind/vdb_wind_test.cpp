@@ -1,6 +1,4 @@
 // Files as OpenVDB itself writes them.
-#include "converter/wind/vdb_wind.hpp"
-
 #include <fstream>
 #include <limits>
 
@@ -10,6 +8,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
+#include "converter/wind/wind_readers.hpp"
 #include "samara/core/wind/grid_wind.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -22,7 +21,7 @@ using testing::HasSubstr;
 constexpr int nodes = 12;
 constexpr double voxel = 0.5;
 
-openvdb::Vec3s turning(const openvdb::Vec3d& place) {
+openvdb::Vec3s rotating_flow(const openvdb::Vec3d& place) {
     return {static_cast<float>(-place.y() + 0.25 * place.z()), static_cast<float>(place.x()),
             static_cast<float>(2.0 * place.z())};
 }
@@ -35,7 +34,7 @@ openvdb::Vec3SGrid::Ptr vectors(const std::string& name, double factor = 1.0, do
     for (openvdb::Coord at(-nodes); at.x() <= nodes; ++at.x()) {
         for (at.y() = -nodes; at.y() <= nodes; ++at.y()) {
             for (at.z() = 0; at.z() <= nodes; ++at.z()) {
-                accessor.setValue(at, static_cast<float>(factor) * turning(grid->indexToWorld(at)));
+                accessor.setValue(at, static_cast<float>(factor) * rotating_flow(grid->indexToWorld(at)));
             }
         }
     }
@@ -81,14 +80,14 @@ TEST_F(VdbWind, AVelocityGridIsTakenWhereItIs) {
     EXPECT_LT((at(grid, place) - Vector3d(2.2 + 0.25 * 3.1, 1.3, 6.2)).norm(), 1e-5);
 }
 
-TEST_F(VdbWind, HoudinisThreeGridsWithYUpAreTurned) {
+TEST_F(VdbWind, HoudinisThreeGridsWithYUpBecomeZUp) {
     const auto whole = vectors("any");
     const auto path = file("a.vdb", {component(*whole, 0, "vel.x"), component(*whole, 1, "vel.y"),
                                      component(*whole, 2, "vel.z")});
     const WindGrid grid = read_vdb_wind({path}, {.y_up = true});
     // The file's place (x, y, z) is (x, -z, y) here, and so are velocities.
     const Vector3d place(1.3, -3.1, -2.2);
-    const openvdb::Vec3s there = turning({1.3, -2.2, 3.1});
+    const openvdb::Vec3s there = rotating_flow({1.3, -2.2, 3.1});
     EXPECT_LT((at(grid, place) - Vector3d(there.x(), -there.z(), there.y())).norm(), 1e-5);
 }
 
@@ -102,7 +101,7 @@ TEST_F(VdbWind, AStaggeredGridIsReadBetweenItsFaces) {
         for (int i = 0; i < 3; ++i) {
             openvdb::Vec3d index = value.getCoord().asVec3d();
             index[i] -= 0.5;
-            faces[i] = turning(grid->indexToWorld(index))[i];
+            faces[i] = rotating_flow(grid->indexToWorld(index))[i];
         }
         value.setValue(faces);
     }
@@ -113,13 +112,13 @@ TEST_F(VdbWind, AStaggeredGridIsReadBetweenItsFaces) {
 TEST_F(VdbWind, FilesAreTimes) {
     std::vector<std::filesystem::path> files;
     for (int i = 0; i < 4; ++i) files.push_back(file(fmt::format("{}.vdb", i), {vectors("vel", i)}));
-    double told = 0.0;
+    double reported = 0.0;
     const WindGrid grid =
         read_vdb_wind(files, {.frame_rate = 10.0, .progress = [&](double done, double total) {
-                                  EXPECT_LE(told, done);
-                                  told = done / total;
+                                  EXPECT_LE(reported, done);
+                                  reported = done / total;
                               }});
-    EXPECT_EQ(told, 1.0);
+    EXPECT_EQ(reported, 1.0);
     EXPECT_EQ(grid.frames, 4U);
     EXPECT_NEAR(grid.duration(), 0.3, 1e-15);
     const Vector3d place(1.3, -2.2, 3.1);
@@ -157,7 +156,7 @@ TEST_F(VdbWind, IndexSpaceWantsTheSizeOfAVoxel) {
                 HasSubstr("is in index space: it does not say how large its voxels are; give --voxel-size"));
     const WindGrid grid = read_vdb_wind({path}, {.voxel_size = 0.1});
     EXPECT_NEAR(grid.spacing.x(), 0.1, 1e-12);
-    // What was 10 voxels off is 1 m off now, with the velocity that it had.
+    // A place 10 voxels away is 1 m away now, with the same velocity.
     EXPECT_LT((at(grid, Vector3d(1.0, 0.0, 0.5)) - Vector3d(1.25, 10.0, 10.0)).norm(), 1e-4);
 }
 
@@ -168,7 +167,7 @@ TEST_F(VdbWind, NumbersThatAreNotFiniteAreFound) {
     EXPECT_THAT(error(file("a.vdb", {grid})), HasSubstr("is not finite"));
 }
 
-TEST_F(VdbWind, DamagedFilesAreRefused) {
+TEST_F(VdbWind, DamagedFilesAreRejected) {
     const auto path = file("a.vdb", {vectors("velocity")});
     const auto size = std::filesystem::file_size(path);
     for (const double share : {0.0, 0.01, 0.5}) {

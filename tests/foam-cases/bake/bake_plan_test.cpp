@@ -274,7 +274,7 @@ TEST(BakePlan, IsWrittenWithAxesAsRowsAndDirectionsInCaseAxes) {
     EXPECT_EQ(json["meshes"][0]["name"], "mesh_coarse");
 }
 
-/// Of a sphere in water; density in kg/m^3.
+/// Returns the speed of a sphere in water; density in kg/m^3.
 double speed_of(double density, double gravity = 9.81) {
     const Body body = test::sphere(0.01);
     return bake_speed(body, *fluid_preset("water"), density * body.moments.volume, gravity);
@@ -286,7 +286,7 @@ TEST(BakeSpeed, IsTheTerminalSpeed) {
               terminal_speed(body, *fluid_preset("water"), 2000.0 * body.moments.volume, 9.81));
 }
 
-TEST(BakeSpeed, OfABodyThatFloatsInTheFluidOrWithoutGravityIsRefusedWithItsName) {
+TEST(BakeSpeed, OfABodyThatFloatsInTheFluidOrWithoutGravityIsRejectedWithItsName) {
     const std::string neutral = test::error_of([] { (void)speed_of(fluid_preset("water")->density); });
     EXPECT_THAT(neutral, AllOf(HasSubstr("sphere"), HasSubstr("choose another density")));
     const std::string weightless = test::error_of([] { (void)speed_of(2000.0, 0.0); });
@@ -298,7 +298,7 @@ TEST(BakeReynoldsNumber, HasThreeDigits) {
     EXPECT_NEAR(rounded_reynolds_number(0.123456), 0.123, 1e-12);
 }
 
-TEST(BakeQuality, OfAnUnknownNameIsRefused) {
+TEST(BakeQuality, OfAnUnknownNameIsRejected) {
     EXPECT_THROW(bake_quality("perfect"), Error);
 }
 
@@ -309,7 +309,7 @@ TEST(BakeQuality, HasTheLoadsByTheClosureWithTransitionFromStandardOn) {
     EXPECT_EQ(usual_loads_closure("high"), Closure::k_omega_sst_lm);
 }
 
-TEST(BakeQuality, WithLoadsByAClosureWithoutOmegaIsRefused) {
+TEST(BakeQuality, WithLoadsByAClosureWithoutOmegaIsRejected) {
     EXPECT_THROW((void)with_loads_by(Closure::launder_sharma_k_epsilon, bake_quality("smoke")), Error);
     EXPECT_TRUE(with_loads_by(Closure::k_epsilon, bake_quality("smoke")).turbulence_meshes.empty());
 }

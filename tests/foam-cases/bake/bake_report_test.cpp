@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// What a bake says of falls with these balances, fall_00 and on.
+/// Returns the notes of a bake about falls with these balances, fall_00 and so on.
 std::string said_of(const std::vector<FallBalance>& balances) {
     BakeRequest request;
     request.output = "rubber.body.h5";
@@ -19,7 +19,7 @@ std::string said_of(const std::vector<FallBalance>& balances) {
     result.conversion.emplace();
     auto& falls = result.conversion->identification.emplace().falls;
     for (const FallBalance& balance : balances) {
-        FlownFall& fall = falls.emplace_back();
+        SimulatedFall& fall = falls.emplace_back();
         fall.name = "fall_0" + std::to_string(falls.size() - 1);
         fall.balance = balance;
     }

@@ -235,7 +235,7 @@ TEST_F(Bake, OfASmallSphereIsLaminarAndHasItsMeasuredDrag) {
     EXPECT_EQ(json["cases"][0]["turbulent_kinetic_energy"], 0.0);
 }
 
-TEST_F(Bake, RefusesABodyAsDenseAsTheFluid) {
+TEST_F(Bake, RejectsABodyAsDenseAsTheFluid) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --density 998.2", file.string()));
     EXPECT_EQ(run.status, 1);

@@ -44,7 +44,7 @@ Symmetry body_of_revolution() {
     return symmetry;
 }
 
-TEST(DirectionWeights, SumToOneForEveryKindOfSymmetry) {
+TEST(DirectionWeights, SumToOneForEveryTypeOfSymmetry) {
     const auto visits = visits_along({{1, 2, 3}, {-1, 0.2, 0}, {0, 0, -1}});
     for (const Symmetry& symmetry :
          {Symmetry(), test::box_symmetry(), test::cube_symmetry(), body_of_revolution(), ball()}) {

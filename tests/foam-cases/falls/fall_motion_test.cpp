@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A body in a fall that is uniform in case axes: it moves with `velocity` and turns with `angular_velocity`.
+// A body in a fall that is uniform in case axes: with constant `velocity` and `angular_velocity`.
 class TakeFalls : public testing::Test {
   protected:
     TakeFalls() {
@@ -30,8 +30,8 @@ class TakeFalls : public testing::Test {
         FallSample sample;
         sample.time = time;
         sample.position = record_.fall.center_of_mass + velocity_ * time;
-        sample.turn = Eigen::AngleAxisd(angular_velocity_.norm() * time, angular_velocity_.normalized())
-                          .toRotationMatrix();
+        sample.rotation = Eigen::AngleAxisd(angular_velocity_.norm() * time, angular_velocity_.normalized())
+                              .toRotationMatrix();
         sample.velocity = velocity_;
         sample.angular_velocity = angular_velocity_;
         record_.samples.push_back(sample);
@@ -58,14 +58,15 @@ class TakeFalls : public testing::Test {
 TEST_F(TakeFalls, GivesTheMotionInWorldAxes) {
     frames(5, 4.0);
     take();
-    const Vector3d turning = start_.orientation * start_.velocity.head<3>();
+    const Vector3d angular_velocity = start_.orientation * start_.velocity.head<3>();
     for (std::size_t i = 0; i < 5; ++i) {
         const double time = motion_.times[i];
         EXPECT_LT((pose(i).position - start_.position - start_velocity() * time).norm(), 1e-12);
         EXPECT_LT((pose(i).velocity - start_velocity()).norm(), 1e-12);
-        EXPECT_LT((pose(i).angular_velocity - turning).norm(), 1e-9);
+        EXPECT_LT((pose(i).angular_velocity - angular_velocity).norm(), 1e-9);
         const Quaterniond expected =
-            Quaterniond(Eigen::AngleAxisd(turning.norm() * time, turning.normalized())) * start_.orientation;
+            Quaterniond(Eigen::AngleAxisd(angular_velocity.norm() * time, angular_velocity.normalized())) *
+            start_.orientation;
         EXPECT_LT(pose(i).orientation.angularDistance(expected), 1e-7);
     }
 }
@@ -109,7 +110,7 @@ TEST_F(TakeFalls, GivesEachFallToACopyAndEndsWithTheShortest) {
     }
 }
 
-TEST_F(TakeFalls, IsRefusedWhereTheFallEndsBeforeItsSecondFrame) {
+TEST_F(TakeFalls, IsRejectedWhereTheFallEndsBeforeItsSecondFrame) {
     frames(2, 0.5);
     EXPECT_THAT(test::error_of([&] {
                     take_falls({{record_, start_}}, surroundings_, motion_);

@@ -24,7 +24,7 @@ SceneBody of_density(double density) {
     return body;
 }
 
-// Of a body that hangs off its centroid, and lies turned in the world.
+// The plan of a fall of a body whose centre of mass is off its centroid, and which is rotated in the world.
 SceneBody uneven_and_turned() {
     SceneBody body = of_density(1000.0);
     body.mass = {};
@@ -85,7 +85,7 @@ TEST(FallPlan, HasTheUnitsOfTheBodyTheSpeedAndTheFluid) {
     EXPECT_EQ(fall.time_step, planned.model.time_step(largest_inertia_ratio(planned.immersed)));
 }
 
-TEST(FallPlan, TurnsEverythingIntoCaseAxes) {
+TEST(FallPlan, RotatesEverythingIntoCaseAxes) {
     Planned planned(uneven_and_turned());
     Matrix3d& axes = planned.body.symmetry.axes;
     axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -104,7 +104,7 @@ TEST(FallPlan, TurnsEverythingIntoCaseAxes) {
 
 // The solver writes angles about x, y and z, which are not unique where the third axis is the first of the
 // case.
-TEST(FallPlan, TakesPrincipalAxesThatAreLittleTurnedFromTheCases) {
+TEST(FallPlan, TakesPrincipalAxesThatAreNearTheCases) {
     SceneBody body = uneven_and_turned();
     *body.mass.inertia << 9e-6, 0, 0, 0, 7e-6, 1e-7, 0, 1e-7, 6e-6;
     Planned planned(body);
@@ -139,7 +139,7 @@ TEST(FallPlan, StartsWithTheMomentaOfBodyAndFluid) {
     planned.plan();
     // The test body has the added mass of a sphere.
     EXPECT_NEAR(planned.fall.velocity.z(), -0.3 * (2.0 + 0.5) / 2.0 / speed, 1e-9);
-    // In time of second order the fluid takes half of its share of a jump.
+    // With time steps of second order the fluid takes half of its share of a jump.
     planned.model = fall_model_of(Closure::k_omega_sst_lm);
     planned.plan();
     EXPECT_NEAR(planned.fall.velocity.z(), -0.3 * (2.0 + 0.5) / (2.0 + 0.25) / speed, 1e-9);
@@ -163,7 +163,7 @@ TEST(FallPlan, RelaxesBelowTheStabilityOfTakingFlowAndMotionInTurn) {
         Planned planned(of_density(density));
         planned.model = fall_model_of(Closure::k_epsilon);
         planned.plan();
-        // Of the test body: half its displaced mass, and no added moment of inertia.
+        // The test body has half its displaced mass as added mass, and no added moment of inertia.
         const double ratio = 0.5 * 1000.0 / density;
         EXPECT_NEAR(largest_inertia_ratio(planned.immersed), ratio, 1e-9);
         EXPECT_NEAR(planned.fall.acceleration_relaxation, std::min(0.7, 0.75 * 2.0 / (1.0 + ratio)), 1e-12);
@@ -312,7 +312,7 @@ BakePlan bake_with_falls(const Body& body, const BakeQuality& quality) {
     return plan;
 }
 
-TEST(FallPlan, IsOfItsOwnKindNotOfAQuality) {
+TEST(FallPlan, IsOfItsOwnTypeNotOfAQuality) {
     Planned planned(of_density(1200.0));
     planned.plan();
     const BakePlan plan = plan_falls(planned.body, 5000.0, {planned.fall}, planned.model);

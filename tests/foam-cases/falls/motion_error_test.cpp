@@ -47,7 +47,7 @@ UncertainTables all_uncertain(const Body& body, double error) {
 
 MotionError error_of(const Scene& scene, const UncertainTables& uncertain, int falls, int draws) {
     const Body body = body_with_tables();
-    return motion_error(scene, 0, body, uncertain, fly_for_bake(scene, 0, body, falls), falls, draws);
+    return motion_error(scene, 0, body, uncertain, simulate_for_bake(scene, 0, body, falls), falls, draws);
 }
 
 double descent_error(const MotionError& error) {
@@ -94,8 +94,8 @@ TEST(MotionError, OfABallsSpeedIsHalfThatOfItsDrag) {
     ASSERT_EQ(uncertain.unsolved.size(), 1U);
     constexpr int draws = 40;
     const MotionError error =
-        motion_error(scene, 0, ball, uncertain, fly_for_bake(scene, 0, ball, 1), 1, draws);
-    // Neither its inclination nor its turning says anything.
+        motion_error(scene, 0, ball, uncertain, simulate_for_bake(scene, 0, ball, 1), 1, draws);
+    // Neither its inclination nor its rotation is relevant.
     EXPECT_FALSE(error.metrics[Metric::inclination_amplitude]);
     EXPECT_FALSE(error.metrics[Metric::rms_angular_speed]);
     // 1 %, as far as that many draws can tell.
@@ -106,7 +106,7 @@ TEST(MotionError, StatesWhatChanceMakesOfIt) {
     Scene scene = short_scene();
     scene.bodies[0].turbulence = Turbulence::table;
     const Body body = body_with_tables();
-    const SampledFalls simulation = fly_for_bake(scene, 0, body, 4);
+    const SampledFalls simulation = simulate_for_bake(scene, 0, body, 4);
     constexpr int draws = 3;
     const MotionError error = motion_error(scene, 0, body, all_uncertain(body, 0.0), simulation, 4, draws);
     const Estimate descent = *simulation.mean(Metric::descent_speed);

@@ -125,7 +125,7 @@ double along(const Vector3d& vector, const Vector3d& direction) {
     return vector.dot(direction.normalized());
 }
 
-/// Of the steps the one that is nearest to a time (L/U).
+/// Returns the step that is nearest to a time (L/U).
 const FallSample& sample_at(double time, const FallRecord& record) {
     return *std::ranges::min_element(record.samples, {},
                                      [&](const FallSample& sample) { return std::abs(sample.time - time); });
@@ -196,9 +196,9 @@ TEST_F(Falls, ASphereThatStartsWithAVelocityKeepsItOnceTheFluidMoves) {
 }
 
 // A floating body whose centre of mass is 8 mm below its centroid: omega^2 = rho V g r (K^-1)_xx, where the
-// inverse of the inertia of body and fluid lets it swing about whatever point it will. In a fluid a hundred
-// times as thin as water, whose boundary layer is 40 micrometres thick: that of water swings along, and makes
-// the period 2.9 % longer.
+// inverse of the inertia of body and fluid determines the point about which it oscillates. In a fluid a
+// hundred times as thin as water, whose boundary layer is 40 micrometres thick: that of water oscillates too,
+// and makes the period 2.9 % longer.
 TEST_F(Falls, ABodyHungOffItsCentroidSwingsAsTheInertiaOfBodyAndFluidSays) {
     write_scene("duration = 0.8", "ellipsoid",
                 "mass = 0.0335103\ncenter_of_mass = [0, 0, -0.008]\norientation = [0.99875, 0.049979, 0, 0]",
@@ -206,7 +206,7 @@ TEST_F(Falls, ABodyHungOffItsCentroidSwingsAsTheInertiaOfBodyAndFluidSays) {
     const nlohmann::json json = solved({"--closure", "laminar", "--step", "0.5"});
     ASSERT_TRUE(json.is_object());
     const FallRecord record = read_fall_record(fall_);
-    std::vector<double> turnings;  // s: when it turns back
+    std::vector<double> reversals;  // s: when the motion reverses
     for (std::size_t i = 1; i < record.samples.size(); ++i) {
         const double before = record.samples[i - 1].angular_velocity.x();
         const double after = record.samples[i].angular_velocity.x();
@@ -214,10 +214,10 @@ TEST_F(Falls, ABodyHungOffItsCentroidSwingsAsTheInertiaOfBodyAndFluidSays) {
         const double share = before / (before - after);
         const double time =
             record.samples[i - 1].time + share * (record.samples[i].time - record.samples[i - 1].time);
-        turnings.push_back(time * record.fall.time_unit());
+        reversals.push_back(time * record.fall.time_unit());
     }
-    ASSERT_GE(turnings.size(), 2u);
-    const double period = 2.0 * (turnings[1] - turnings[0]);
+    ASSERT_GE(reversals.size(), 2u);
+    const double period = 2.0 * (reversals[1] - reversals[0]);
 
     const Scene scene = read_scene_file(folder_.path() / "scene.toml");
     SceneBody scene_body = scene.bodies.front();
@@ -341,7 +341,7 @@ TEST_F(Falls, OneThatBlowsUpIsSolvedWithHalfTheStep) {
     write_scene("duration = 0.01", "sphere", "density = 50");
     const test::ProgramRun run = validate(templates_with("accelerationRelaxation 1;", true));
     ASSERT_EQ(run.status, 0) << run.error;
-    EXPECT_THAT(run.error, HasSubstr("note: the fall blew up as planned and was solved with half the step"));
+    EXPECT_THAT(run.error, HasSubstr("note: the fall diverged as planned and was solved with half the step"));
     const nlohmann::json json = run.json();
     EXPECT_THAT(json["attempts"], ElementsAre("as planned", "half the step"));
     EXPECT_TRUE(attempts()[0].contains("end"));
@@ -351,7 +351,7 @@ TEST_F(Falls, OneThatBlowsUpIsSolvedWithHalfTheStep) {
     EXPECT_NEAR(json["time_step"].get<double>(), 0.5 * record.fall.time_step * record.fall.time_unit(), 1e-9);
 }
 
-TEST_F(Falls, OneThatBlowsUpInAllAttemptsIsRefusedInOneLine) {
+TEST_F(Falls, OneThatDivergesInAllAttemptsIsRejectedInOneLine) {
     write_scene("duration = 0.01", "sphere", "density = 50");
     const std::string templates = templates_with("accelerationRelaxation 1;", false);
     const test::ProgramRun run = validate(templates);
@@ -360,7 +360,7 @@ TEST_F(Falls, OneThatBlowsUpInAllAttemptsIsRefusedInOneLine) {
     const std::string error =
         run.error.substr(std::min(run.error.find("samara validate:"), run.error.size()));
     EXPECT_TRUE(test::is_one_line(error)) << run.error;
-    EXPECT_THAT(error, HasSubstr("out.cases/fall_00: blew up in all attempts"));
+    EXPECT_THAT(error, HasSubstr("out.cases/fall_00: diverged in all attempts"));
     EXPECT_THAT(names_of_attempts(), ElementsAre("as planned", "half the step", "a quarter of the step"));
     EXPECT_FALSE(fs::exists(folder_.path() / "out.h5"));
     // Nothing would be otherwise the next time.

@@ -1,4 +1,4 @@
-// What samara validate refuses, each in one line, before anything is solved.
+// Errors of samara validate, each in one line, before anything is solved.
 
 #include "foam-cases/falls/validate.hpp"
 
@@ -36,7 +36,7 @@ class Validate : public testing::Test {
         words.insert(words.end(), more.begin(), more.end());
         return test::run_program_in(folder_, words, environment);
     }
-    /// The one line of a refusal.
+    /// Returns the one line of an error.
     [[nodiscard]] std::string error(const std::vector<std::string>& more = {},
                                     const std::string& environment = "") const {
         const test::ProgramRun run = validate(more, environment);
@@ -51,7 +51,7 @@ class Validate : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(Validate, RefusesNamesThatMotionFilesDoNotHave) {
+TEST_F(Validate, RejectsNamesThatMotionFilesDoNotHave) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     const test::ProgramRun run =
         test::run_program_in(folder_, {"samara-validate", "scene.toml", "-o", "out.glb"});
@@ -60,7 +60,7 @@ TEST_F(Validate, RefusesNamesThatMotionFilesDoNotHave) {
                 HasSubstr("out.glb: the output is a motion file; write out.h5, then 'samara export"));
 }
 
-TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
+TEST_F(Validate, RejectsScenesThatFullCfdDoesNotSolve) {
     const std::string body = "density = 1200\nturbulence = \"none\"";
     write_scene("", "", body + "\n[[body]]\nname = \"other\"\nshape = \"ball.body.h5\"\ndensity = 1200");
     EXPECT_THAT(error(), HasSubstr("scene.toml: full CFD solves one body at a time"));
@@ -82,7 +82,7 @@ TEST_F(Validate, RefusesScenesThatFullCfdDoesNotSolve) {
     EXPECT_THAT(error(), HasSubstr("ends before its body starts"));
 }
 
-TEST_F(Validate, RefusesABodyThatNothingMoves) {
+TEST_F(Validate, RejectsABodyThatNothingMoves) {
     write_scene("", "", "density = 998.2\nturbulence = \"none\"");
     EXPECT_THAT(error({"--dry-run"}), HasSubstr("'ball' is as dense as the fluid"));
     write_scene("gravity = [0, 0, 0]", "", "density = 1200\nturbulence = \"none\"");
@@ -106,7 +106,7 @@ TEST_F(Validate, NamesTheContainerThatRunsNoOpenFoam) {
                 HasSubstr("'/nowhere/apptainer simpleFoam -help' fails with exit status 127"));
 }
 
-TEST_F(Validate, RefusesNumbersOutOfRangeAndFilesThatAreNone) {
+TEST_F(Validate, RejectsNumbersOutOfRangeAndFilesThatAreNone) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     EXPECT_THAT(error({"--cells", "10"}), HasSubstr("--cells"));
     EXPECT_THAT(error({"--step", "0"}), HasSubstr("--step"));

@@ -31,7 +31,7 @@ const std::string odd_name = "-a \"b\n c;$HOME#\xc3\xa9%*\\&";
 
 using Files = std::map<std::string, std::string>;  // contents by path
 
-// What stands in the folder, without what links lead to.
+// Returns the files of the folder, without following links.
 Files files_in(const fs::path& folder) {
     Files files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -144,7 +144,7 @@ TEST_F(CaseByHand, OfAFlowGivesTheSameWhenItIsCleanedAndRunAgain) {
     EXPECT_EQ(solution_in(flow), solution);
 }
 
-// A container stood in for by a script that notes what it runs and clears the way to OpenFOAM here.
+// A container, represented by a script that records what it runs and calls the OpenFOAM of this machine.
 TEST_F(CaseByHand, RunsEveryProgramOfOpenFoamByTheWordsOfItsContainer) {
     const fs::path flow = flow_case("flow");
     const fs::path container = folder_.path() / "container";

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "foam-cases/farm/case_parameters.hpp"
 #include "paths.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
@@ -172,7 +171,7 @@ TEST_F(CaseFolder, PutsBackAFileThatWasChangedByHand) {
     EXPECT_EQ(read_bytes(schemes), before);
 }
 
-// What stands in a folder that another one gave away: each is refused by its name, and what it leads to stays
+// Unsafe entries in a folder of another origin: each is rejected with its name, and its target stays
 // as it is.
 class StrangeCaseFolder : public CaseFolder {
   protected:
@@ -181,7 +180,7 @@ class StrangeCaseFolder : public CaseFolder {
         pretend_solved(folder_);
     }
     [[nodiscard]] fs::path first() const { return folder_ / plan_.cases[0].name; }
-    /// What is said of the folder as it is; what it says is the path of the file, and after that this.
+    /// Returns the error about the folder, after the path of the file.
     [[nodiscard]] std::string error_of(const fs::path& file) const {
         const std::string said =
             test::error_of([&] { write_case_folder(folder_, body_, plan_, foam_cases); });
@@ -198,7 +197,7 @@ class StrangeCaseFolder : public CaseFolder {
     }
 };
 
-TEST_F(StrangeCaseFolder, WithAFileThatIsNeitherAnInputNorAResultIsRefused) {
+TEST_F(StrangeCaseFolder, WithAFileThatIsNeitherAnInputNorAResultIsRejected) {
     for (const char* name :
          {"json.py", "fvOptions", "remedy", "case_files.cpython-311-x86_64-linux-gnu.so", "system/fvOptions",
           "system/functions", "constant/fvOptions", "constant/dynamicMeshDict", "0.orig/alpha", "12/U.gz"}) {
@@ -209,7 +208,7 @@ TEST_F(StrangeCaseFolder, WithAFileThatIsNeitherAnInputNorAResultIsRefused) {
     expect_rejected(folder_ / "mesh_coarse/system/fvOptions");
 }
 
-TEST_F(StrangeCaseFolder, WithAFolderThatNobodyMakesThereIsRefused) {
+TEST_F(StrangeCaseFolder, WithAFolderOfAnotherOriginIsRejected) {
     for (const char* name : {"dynamicCode", "__pycache__", "case_files", "system/include", "constant/lib"}) {
         const fs::path folder = first() / name;
         fs::create_directories(folder);
@@ -273,13 +272,13 @@ TEST_F(StrangeCaseFolder, LeadsToItsOwnMeshAlone) {
     EXPECT_EQ(read_bytes(elsewhere), "untouched");
 }
 
-TEST_F(StrangeCaseFolder, WithAPipeIsRefused) {
+TEST_F(StrangeCaseFolder, WithAPipeIsRejected) {
     const fs::path pipe = first() / "log.simpleFoam";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_THAT(error_of(pipe), testing::HasSubstr("is neither a file nor a folder"));
 }
 
-TEST_F(StrangeCaseFolder, WhoseFieldsOrMeshHoldMoreThanDataIsRefused) {
+TEST_F(StrangeCaseFolder, WhoseFieldsOrMeshHoldMoreThanDataIsRejected) {
     const std::string field =
         "FoamFile { version 2.0; format ascii; class volVectorField; object U; }\ninternalField ";
     fs::create_directories(first() / "12");

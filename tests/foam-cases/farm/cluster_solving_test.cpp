@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 
 #include "bake_folder.hpp"
-#include "foam-cases/farm/cluster_jobs.hpp"
+#include "foam-cases/farm/case_farm.hpp"
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "test_bodies.hpp"
@@ -129,7 +129,7 @@ TEST_F(Cluster, SaysThatNoSlurmAnswers) {
 }
 
 TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
-    // As where the node does not see it: Slurm cannot open the job's log there.
+    // As if the folder were not visible to the node: Slurm cannot open the job's log there.
     const std::string submit = "sbatch --time=10 --output=" + (folder_ / "nowhere/log").string();
     const test::ProgramRun run = bake_there(write_body(test::sphere(0.01)), submit);
     EXPECT_EQ(run.status, 1);

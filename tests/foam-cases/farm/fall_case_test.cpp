@@ -10,7 +10,6 @@
 
 #include "foam-cases/falls/fall_plan.hpp"
 #include "foam-cases/farm/case_folder.hpp"
-#include "foam-cases/farm/case_parameters.hpp"
 #include "paths.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
@@ -210,7 +209,7 @@ TEST_F(FallCase, IsSolvedAgainWithAnotherStepOrMesh) {
     const std::string finer = hash_after(other);
     EXPECT_NE(finer, hash);
     EXPECT_FALSE(is_solved());
-    // What an earlier solve left behind would pass for progress.
+    // The files of an earlier run would count as progress.
     EXPECT_FALSE(fs::exists(folder_ / "fall_00/attempts.json"));
     EXPECT_FALSE(fs::exists(folder_ / "fall_00/postProcessing"));
 

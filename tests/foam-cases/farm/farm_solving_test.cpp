@@ -110,7 +110,7 @@ TEST_F(Farm, RunsNothingThatAStrangerLeftInItsFolder) {
         EXPECT_THAT(run.error, HasSubstr(fmt::format("out.cases/{}: is ", name)));
         fs::remove(cases_ / name);
     }
-    // These are written anew, or removed.
+    // These are rewritten, or removed.
     fs::create_directories(cases_ / ".snakemake/scripts");
     std::ofstream(cases_ / ".snakemake/scripts/strange.py") << script;
     std::ofstream(cases_ / "direction_01_coarse/Allrun") << "#!/bin/sh\ntouch '" << ran.string() << "'\n";

@@ -11,9 +11,12 @@
 
 #include "../converter/load_laws.hpp"
 #include "../converter/table_cases.hpp"
+#include "converter/tables/direction_sampling.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
+#include "samara/pictures/draw.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
+#include "support/temporary_folder.hpp"
 #include "test_bodies.hpp"
 
 namespace samara {
@@ -40,18 +43,19 @@ SceneGoal goal_of(double tolerance) {
     return goal;
 }
 
-SampledFalls flown(const SceneGoal& goal) {
-    return fly_for_bake(goal.scene, 0, rubber(), goal.falls);
+SampledFalls simulated(const SceneGoal& goal) {
+    return simulate_for_bake(goal.scene, 0, rubber(), goal.falls);
 }
 
-TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRefused) {
+TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRejected) {
     const auto error_of = [](double duration, double start, double step) {
         SceneGoal goal = goal_of(0.1);
         goal.scene.file = "odd.toml";
         goal.scene.duration = duration;
         goal.scene.step = step;
         goal.scene.bodies[0].start = start;
-        return test::error_of([&] { first_plan(goal, rubber(), bake_quality("smoke"), {}, flown(goal)); });
+        return test::error_of(
+            [&] { first_plan(goal, rubber(), bake_quality("smoke"), {}, simulated(goal)); });
     };
     for (const auto& [duration, start, step] :
          {std::array{1e-4, 0.0, 1.0}, {1.0, 2.0, 2e-3}, {1.0, 1.0, 2e-3}}) {
@@ -69,7 +73,7 @@ LoadEntry law(const Vector3d& d) {
     return entry;
 }
 
-/// What solving the plan's cases would give if the flow obeyed the law.
+/// Returns the result of solving the plan's cases if the flow obeyed the law.
 Conversion solved(const Body& body, const ScenePlan& plan) {
     Conversion conversion;
     conversion.body = body;
@@ -93,7 +97,8 @@ Conversion solved(const Body& body, const ScenePlan& plan) {
 }
 
 ScenePlan planned(const SceneGoal& goal, const Body& body) {
-    return first_plan(goal, body, bake_quality("smoke"), {}, fly_for_bake(goal.scene, 0, body, goal.falls));
+    return first_plan(goal, body, bake_quality("smoke"), {},
+                      simulate_for_bake(goal.scene, 0, body, goal.falls));
 }
 
 ScenePlan baked(const SceneGoal& goal, const Body& body) {
@@ -171,13 +176,29 @@ TEST(ScenePlan, OfABallIsOneDirection) {
     EXPECT_EQ(plan.candidates.directions.size(), 1u);
 }
 
-TEST(ScenePlan, HoldsTheDirectionsThatItsFlightsVisited) {
+TEST(ScenePlan, HoldsTheDirectionsThatItsSimulationsVisited) {
     const SceneGoal goal = goal_of(0.1);
     const Body body = rubber();
-    const SampledFalls simulation = fly_for_bake(goal.scene, 0, body, goal.falls);
+    const SampledFalls simulation = simulate_for_bake(goal.scene, 0, body, goal.falls);
     const ScenePlan plan = first_plan(goal, body, bake_quality("smoke"), {}, simulation);
     for (const FlowVisit& visit : simulation.visits) EXPECT_TRUE(plan.region.holds(visit.direction));
     EXPECT_FALSE(std::ranges::all_of(plan.region.planned, [](std::uint8_t one) { return one == 1; }));
+}
+
+TEST(ScenePlanPicture, HoldsEachVisitAndEachImageOfACase) {
+    const Symmetry symmetry = test::ellipsoid({0.01, 0.02, 0.04}).symmetry;
+    ScenePlan plan;
+    plan.candidates.directions = required_directions(symmetry, 4);
+    plan.chosen = {0, 1};
+    std::vector<FlowVisit> visits(100);
+    for (FlowVisit& visit : visits) visit.direction = symmetry.axes * Vector3d(0.6, 0.0, 0.8);
+    const nlohmann::json picture = plan_picture("leaf", visits, symmetry, plan);
+    ASSERT_EQ(picture["visited"].size(), 100U);
+    EXPECT_NEAR(picture["visited"][0][0].get<double>(), 0.6, 1e-12);
+    EXPECT_EQ(picture["cases"].size(), 2 * elements_in_map_axes(symmetry).size());
+    const test::TemporaryFolder folder;
+    draw_picture(folder / "plan.svg", picture);
+    EXPECT_GT(std::filesystem::file_size(folder / "plan.svg"), 5000U);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class FakedSolverTest(unittest.TestCase):
             file.write(text)
 
     def run_faked(self, program, fake):
-        """The exit status and what was said of a run of the case's program; the solver is told FAKE."""
+        """Returns the exit status and output of a run of the case's program; the solver gets the setting FAKE."""
         path = os.path.join(self.case, program)
         result = subprocess.run([path], env={**os.environ, "PATH": self.path, "FAKE": fake}, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, check=False, timeout=60)

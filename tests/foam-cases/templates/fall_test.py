@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What free-fall/fall.py does with a fall that blows up, is stopped or is spoiled, with a solver made here that is done
+"""Tests free-fall/fall.py with falls that diverge, are stopped or are damaged, with a solver made here that is done
 at once. Run by ctest."""
 
 import json
@@ -122,7 +122,7 @@ class FallTest(FakedSolverTest):
         self.write("json.py", "raise SystemExit('ran a stranger')\n")
         self.assertEqual(self.fall(), (0, ""))
 
-    def test_a_blow_up_is_followed_by_shorter_steps(self):
+    def test_a_divergence_is_followed_by_shorter_steps(self):
         self.assertEqual(self.fall(largest_step=0.03), (0, ""))
         self.assertEqual(self.attempts(), ["as planned", "half the step", "a quarter of the step"])
         first, second, third = self.state()["attempts"]
@@ -137,13 +137,13 @@ class FallTest(FakedSolverTest):
     def test_one_that_blows_up_every_time_fails_and_is_tried_anew_when_run_again(self):
         status, said = self.fall(largest_step=0.0)
         self.assertEqual(status, 1)
-        self.assertIn("blew up", said)
+        self.assertIn("diverged", said)
         self.assertEqual(said.count("\n"), 1)
         self.assertEqual(self.state()["verdict"], "failed")
         self.assertEqual(self.fall(), (0, ""))
         self.assertEqual(self.attempts(), ["as planned"])
 
-    def test_a_killed_solver_is_no_blow_up_and_the_fall_goes_on(self):
+    def test_a_killed_solver_is_no_divergence_and_the_fall_goes_on(self):
         status, said = self.fall(stop="kill")
         self.assertEqual(status, 1)
         self.assertIn("pimpleFoam was stopped at time 2.5", said)
@@ -179,7 +179,7 @@ class FallTest(FakedSolverTest):
         self.fall(stop="kill")
 
         def begun(state):
-            state["attempts"][0].update(end="it blew up", cpu_seconds=1.0)
+            state["attempts"][0].update(end="it diverged", cpu_seconds=1.0)
             state["attempts"].append({"what": "half the step", "started": False, "timeStep": "0.05",
                                       "accelerationRelaxation": "0.49"})
 
@@ -188,9 +188,9 @@ class FallTest(FakedSolverTest):
         self.assertEqual(self.attempts(), ["as planned", "half the step"])
         self.assertEqual(self.starts(), ["0"])
 
-    def test_a_kill_right_after_a_blow_up_is_followed_by_the_next_attempt(self):
+    def test_a_kill_right_after_a_divergence_is_followed_by_the_next_attempt(self):
         self.fall(stop="kill")
-        self.set_state(lambda state: state["attempts"][0].update(end="it blew up", cpu_seconds=1.0))
+        self.set_state(lambda state: state["attempts"][0].update(end="it diverged", cpu_seconds=1.0))
         self.assertEqual(self.fall(largest_step=0.06), (0, ""))
         self.assertEqual(self.attempts(), ["as planned", "half the step"])
         self.assertEqual(self.starts(), ["0"])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What body-flow/iterate.py does with a case whose solver is stopped, whose disk was full, or whose files were damaged
+"""Tests body-flow/iterate.py with a case whose solver is stopped, whose disk was full, or whose files were damaged
 since, with a solver made here that is done at once. Run by ctest."""
 
 import json

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What body-flow/stationarity.py takes for stationary, on histories made here. Run by ctest."""
+"""Tests which histories body-flow/stationarity.py takes for stationary. Run by ctest."""
 
 import math
 import os

@@ -1,5 +1,3 @@
-#include "meshes/checks/joined_parts.hpp"
-
 #include <string>
 #include <vector>
 
@@ -26,8 +24,9 @@ Matrix3d some_rotation() {
     return Quaterniond(0.83, 0.31, -0.42, 0.27).normalized().toRotationMatrix();
 }
 
-// As a file of 32-bit numbers has it, turned: sides that lie on each other are then off by some 1e-8.
-Surface turned(const std::vector<Surface>& parts) {
+// Returns the parts rotated and rounded to 32-bit numbers: sides that lie on each other then differ by some
+// 1e-8.
+Surface rotated(const std::vector<Surface>& parts) {
     Surface surface = test::mapped(test::together(parts), some_rotation(), Vector3d(0.4, -0.3, 0.2));
     for (Vector3d& vertex : surface.vertices) vertex = vertex.cast<float>().cast<double>();
     return surface;
@@ -85,7 +84,7 @@ TEST(JoinedParts, ThoseThatOverlapOrTouchWithFlushSidesAreOneExactly) {
 TEST(JoinedParts, SidesThatRoundingSetsApartAreFlush) {
     for (const Parts& each : all_parts()) {
         SCOPED_TRACE(each.name);
-        expect_joined(turned(each.parts), each.volume, each.area, 2e-5);
+        expect_joined(rotated(each.parts), each.volume, each.area, 2e-5);
     }
 }
 
@@ -108,7 +107,7 @@ TEST(JoinedParts, WhatNothingTouchesStaysAsItIs) {
     EXPECT_EQ(same.corners, apart.corners);
 }
 
-TEST(JoinedParts, ThatTouchInAnEdgeOrAPointAloneAreRefusedByNumberAndPlace) {
+TEST(JoinedParts, ThatTouchInAnEdgeOrAPointAloneAreRejectedByNumberAndPlace) {
     Matrix3d on_its_edge = Eigen::AngleAxisd(std::acos(-1.0) / 4.0, Vector3d::UnitY()).toRotationMatrix();
     const Surface plate = box({-2, -2, -1}, {2, 2, 0});
     const Surface edge =

@@ -30,7 +30,7 @@ void append(Surface& surface, const Surface& more) {
     for (const auto& [a, b, c] : more.corners) surface.corners.push_back({a + first, b + first, c + first});
 }
 
-Surface turned(Surface surface) {
+Surface reversed(Surface surface) {
     for (auto& triangle : surface.corners) std::swap(triangle[1], triangle[2]);
     return surface;
 }
@@ -69,27 +69,27 @@ TEST(SoundSurface, FindsAHoleAndSaysWhere) {
 }
 
 TEST(SoundSurface, FindsAnInsideOutSurface) {
-    EXPECT_THAT(error_of(turned(test::box(Vector3d::Ones(), 2))),
+    EXPECT_THAT(error_of(reversed(test::box(Vector3d::Ones(), 2))),
                 AllOf(HasSubstr("inside out"), HasSubstr("--flip")));
 }
 
-TEST(SoundSurface, FlipTurnsAnInsideOutSurfaceRound) {
+TEST(SoundSurface, FlipReversesAnInsideOutSurface) {
     const test::TemporaryFolder folder;
-    test::write_stl(folder / "box.stl", turned(test::box(Vector3d::Ones(), 2)));
+    test::write_stl(folder / "box.stl", reversed(test::box(Vector3d::Ones(), 2)));
     MeshOptions options;
     options.sizing = MeshOptions::Sizing::keep;
     options.flip = true;
     EXPECT_NEAR(make_body(folder / "box.stl", options).moments.volume, 1.0, 1e-12);
 }
 
-TEST(SoundSurface, FindsTheOneFaceThatIsTurned) {
+TEST(SoundSurface, FindsTheOneFaceThatIsReversed) {
     Surface box = test::box(Vector3d::Ones(), 2);
     std::swap(box.corners[16][0], box.corners[16][1]);
     EXPECT_THAT(error_of(box), AllOf(HasSubstr("1 of 48 faces is turned against the others"),
                                      HasSubstr("face 17 at"), HasSubstr(place(triangle_centroid(box, 16)))));
 }
 
-TEST(SoundSurface, FindsTheFewFacesThatAreTurnedEvenIfTheFirstIsAmongThem) {
+TEST(SoundSurface, FindsTheFewFacesThatAreReversedEvenIfTheFirstIsAmongThem) {
     Surface box = test::box(Vector3d::Ones(), 2);
     for (const std::size_t t : {0U, 5U}) std::swap(box.corners[t][0], box.corners[t][1]);
     EXPECT_THAT(error_of(box), AllOf(HasSubstr("2 of 48 faces are turned"), HasSubstr("face 1 at")));
@@ -101,7 +101,7 @@ TEST(SoundSurface, FindsADuplicateFace) {
     EXPECT_THAT(error_of(box), HasSubstr("faces 7 and 49"));
 }
 
-TEST(SoundSurface, FindsADuplicateFaceThatIsTurned) {
+TEST(SoundSurface, FindsADuplicateFaceThatIsReversed) {
     Surface box = test::box(Vector3d::Ones(), 2);
     box.corners.push_back({box.corners[6][1], box.corners[6][0], box.corners[6][2]});
     EXPECT_THAT(error_of(box), HasSubstr("are the same"));
@@ -178,16 +178,16 @@ TEST(SoundSurface, FindsASurfaceThatPassesThroughItself) {
     EXPECT_THAT(error_of(box), HasSubstr("passes through itself"));
 }
 
-TEST(SoundSurface, RefusesACavityAndSaysWhatToDo) {
+TEST(SoundSurface, RejectsACavityAndSaysWhatToDo) {
     Surface shell = test::box(Vector3d::Ones(), 2);
-    append(shell, turned(test::box(Vector3d::Constant(0.5), 2)));
+    append(shell, reversed(test::box(Vector3d::Constant(0.5), 2)));
     EXPECT_THAT(error_of(shell),
                 AllOf(HasSubstr("the 48 faces around"), HasSubstr("enclose a cavity"),
                       HasSubstr("delete them"), HasSubstr("mass, center_of_mass and inertia in the scene")));
 }
 
 TEST(SoundSurface, FindsAHollowBodyThatIsInsideOut) {
-    Surface shell = turned(test::box(Vector3d::Ones(), 2));
+    Surface shell = reversed(test::box(Vector3d::Ones(), 2));
     append(shell, test::box(Vector3d::Constant(0.5), 2));
     EXPECT_THAT(error_of(shell), AllOf(HasSubstr("inside out"), HasSubstr("--flip")));
 }
@@ -209,7 +209,7 @@ TEST(SoundSurface, FindsABodyWithinABody) {
 
 TEST(SoundSurface, FindsTheOnePieceThatIsInsideOut) {
     Surface bodies = test::box(Vector3d::Ones(), 2);
-    append(bodies, test::mapped(turned(test::box(Vector3d::Ones(), 2)), Matrix3d::Identity(),
+    append(bodies, test::mapped(reversed(test::box(Vector3d::Ones(), 2)), Matrix3d::Identity(),
                                 Vector3d(3.0, 0.0, 0.0)));
     EXPECT_THAT(error_of(bodies), HasSubstr("is inside out, the others are not"));
 }

@@ -75,7 +75,7 @@ Errors errors_of(const Surface& surface) {
     const VolumeMoments moments = volume_moments(surface);
     const double volume = 4.0 / 3.0 * pi * axes.prod();
     const Matrix3d second = (volume / 5.0 * axes.cwiseProduct(axes)).asDiagonal();
-    // Of the ellipsoid with semi-axes 1, 2, 4: by Gauss quadrature of the sphere's image.
+    // The ellipsoid with semi-axes 1, 2, 4: by Gauss quadrature of the sphere's image.
     const double area = 63.476648652460796;
     return {std::abs(moments.volume / volume - 1.0), (moments.second_moments - second).norm() / second.norm(),
             std::abs(moments.surface_area / area - 1.0)};

@@ -16,7 +16,7 @@ std::string error_of(const std::string& script) {
     return test::error_of([&] { require_shape_script(script, "a.geo"); });
 }
 
-TEST(ScriptCheck, NamesTheLineAndTheStatementThatIsRefused) {
+TEST(ScriptCheck, NamesTheLineAndTheStatementThatIsRejected) {
     EXPECT_EQ(error_of("r = 1;\n// a sphere\nSystemCall \"touch x\";\n"),
               "a.geo: line 3: SystemCall starts a program, which a shape may not; delete the statement");
     EXPECT_THAT(error_of("System 'ls';"), StartsWith("a.geo: line 1: System starts a program"));

@@ -139,7 +139,7 @@ std::string buffer_of_cube() {
     return bytes;
 }
 
-// One, one of twice the size 3 m along x, and one mirrored, 5 m up and turned by a quarter: up is y in the
+// One, one of twice the size 3 m along x, and one mirrored, 5 m up and rotated by 90 degrees: up is y in the
 // file.
 const std::string nodes =
     R"([{"mesh":0},{"mesh":0,"translation":[3,0,0],"scale":[2,2,2]},{"children":[3],"rotation":[0,0.70710678,0,0.70710678]},)"
@@ -272,7 +272,7 @@ TEST(ShapeReader, SaysWhatIsWrongInOneLine) {
     EXPECT_THAT(error_of("a.off", ""), HasSubstr("is no sound OFF file"));
     EXPECT_THAT(error_of("a.3mf", "PK"), HasSubstr("is no sound 3MF file"));
     EXPECT_THAT(error_of("a.gltf", "{}"), HasSubstr(".gltf file"));
-    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("is of no known kind"), HasSubstr("Blender")));
+    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("is of no known format"), HasSubstr("Blender")));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(UntrustedShape, AScriptStartsNoProgramAndWritesNoFile) {
           "Print \"made.opt\";", "CreateDir \"made\";", "OnelabRun(\"touch\", \"touch made\");"}) {
         const auto shape = folder.file("a.geo", box + statement);
         EXPECT_THAT(error_of(shape), HasSubstr("line 3: ")) << statement;
-        // What another file says is not looked through, and fails when it is tried, if without a word.
+        // Included files are not checked; their commands fail when run, though without a message.
         const auto including = folder.file("b.geo", box + "Include \"statement.inc\";");
         const auto included = folder.file("statement.inc", statement);
         try {
@@ -59,7 +59,7 @@ TEST(UntrustedShape, AFieldStartsNoProgram) {
     const auto included = folder.file("field.inc", field);
     MeshOptions keep;
     keep.sizing = MeshOptions::Sizing::keep;
-    // gmsh 4.8 has faults of its own there: it may crash before it tries.
+    // gmsh 4.8 has errors there: it may crash before the command.
     EXPECT_THAT(error_of(folder.file("b.geo", box + "Include \"field.inc\";"), keep),
                 AnyOf(HasSubstr("tries to start a program"), HasSubstr("ended by signal")));
     EXPECT_EQ(folder.file_count(), 3);
@@ -74,7 +74,7 @@ TEST(UntrustedShape, AScriptMayReadOtherFilesOfItsFolder) {
     EXPECT_NEAR(make_body(shape).moments.volume, 8.0, 1e-12);
 }
 
-TEST(UntrustedShape, AScriptWithTheNameOfAnotherKindIsNotRead) {
+TEST(UntrustedShape, AScriptWithTheNameOfAnotherFormatIsNotRead) {
     const test::TemporaryFolder folder;
     for (const char* name :
          {"a.msh", "a.MSH", "a.step", "a.StEp", "a.stp", "a.brep", "a.Brep", "a.stl", "a.obj"}) {

@@ -1,5 +1,3 @@
-#include "meshes/remeshing/reduced_surface.hpp"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
 #include "meshes/checks/volume_moments.hpp"
+#include "meshes/remeshing/remesh.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

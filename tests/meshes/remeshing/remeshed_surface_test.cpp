@@ -1,5 +1,3 @@
-#include "meshes/remeshing/remeshed_surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "meshes/checks/sound_surface.hpp"
+#include "meshes/remeshing/remesh.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 #include "support/test_shapes.hpp"
@@ -88,7 +87,7 @@ TEST(RemeshedSurface, StaysClosedAndSoundAsItGetsFinerOrCoarser) {
         EXPECT_TRUE(is_closed(result));
         EXPECT_EQ(result.order(), 1);
         EXPECT_NO_THROW(require_sound_surface(result));
-        // Of a closed surface without holes: Euler.
+        // Euler's formula for a closed surface without holes.
         EXPECT_EQ(2 * result.vertices.size(), result.triangle_count() + 4);
     }
 }
@@ -126,7 +125,7 @@ TEST(RemeshedSurface, KeepsCreasesAndCorners) {
 }
 
 TEST(RemeshedSurface, TakesShallowFoldsForCreasesFromTheAngleThatIsGiven) {
-    // A roof that turns by 30 degrees along x = 0 of a long house.
+    // A roof with an angle of 30 degrees along x = 0 of a long house.
     Surface house = test::box(Vector3d(2.0, 2.0, 1.0), 8);
     const double rise = std::tan(15.0 / 180.0 * pi);
     for (Vector3d& vertex : house.vertices) {

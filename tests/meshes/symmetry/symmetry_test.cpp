@@ -120,8 +120,8 @@ TEST(Symmetry, ARotatedEllipsoidHasItsElementsInItsOwnFrame) {
 
 TEST(Symmetry, ASphereIsSphericalHoweverCoarseOrUneven) {
     for (const int level : {2, 3})
-        EXPECT_EQ(symmetry_of(test::icosphere(level)).kind, Symmetry::Type::spherical);
-    EXPECT_EQ(symmetry_of(test::shaken_icosphere(3, 0.2, 1)).kind, Symmetry::Type::spherical);
+        EXPECT_EQ(symmetry_of(test::icosphere(level)).type, Symmetry::Type::spherical);
+    EXPECT_EQ(symmetry_of(test::shaken_icosphere(3, 0.2, 1)).type, Symmetry::Type::spherical);
 }
 
 TEST(Symmetry, ASpheroidIsAxialWithAMirrorAcross) {
@@ -133,7 +133,7 @@ TEST(Symmetry, ASpheroidIsAxialWithAMirrorAcross) {
     expect_group(symmetry);
 }
 
-TEST(Symmetry, ARotatedSpheroidHasItsAxisWhereItWasTurnedTo) {
+TEST(Symmetry, ARotatedSpheroidHasItsAxisWhereItWasRotatedTo) {
     const Symmetry symmetry = symmetry_of(rotated(test::ellipsoid(Vector3d(1.0, 1.0, 3.0), 3)));
     ASSERT_EQ(symmetry.type, Symmetry::Type::axial);
     EXPECT_GT(std::abs(symmetry.axis.dot(some_rotation().col(2))), 0.9999);
@@ -216,7 +216,7 @@ TEST(Symmetry, AWedgeHasOneMirrorAndAnUnevenBodyNone) {
 TEST(Symmetry, ABumpAboveTheToleranceBreaksIt) {
     Surface sphere = test::icosphere(3);
     sphere.vertices.front() *= 1.1;
-    EXPECT_NE(symmetry_of(sphere).kind, Symmetry::Type::spherical);
+    EXPECT_NE(symmetry_of(sphere).type, Symmetry::Type::spherical);
 }
 
 // A ball of 12 by 6 quads, each vertex of which `radius` moves in or out.
@@ -265,7 +265,7 @@ TEST(Symmetry, IsFoundSoonWhateverTheShape) {
         (void)symmetry_of(surface);
         return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     };
-    // Blobs that nearly all turns take near themselves, a skewed cube, and a round one of many triangles.
+    // Blobs that nearly all rotations map near themselves, a skewed cube, and a round one of many triangles.
     for (const double amount : {0.3, 0.1, 0.05, 0.02}) {
         EXPECT_LT(seconds(coarse_ball([&](const Vector3d& at) {
                       return 1.0 + amount * std::sin(37.0 * at.x() + 91.0 * at.y() + 53.0 * at.z());

@@ -1,4 +1,4 @@
-#include "converter/cases/closure.hpp"
+#include "converter/cases/case_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "converter/falls/model_errors.hpp"
+#include "converter/tables/model_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace samara {
 namespace {
 
-/// Variances over directions, each of one component.
+/// Accumulates variances per component over directions.
 class Variances {
   public:
     void add(double variance, int degrees) {
@@ -17,7 +17,7 @@ class Variances {
         degrees_ += degrees;
     }
     [[nodiscard]] bool empty() const { return degrees_ == 0; }
-    /// The root of their mean; for closures widened for the small number of directions.
+    /// Returns the root of their mean; for closures widened for the small number of directions.
     [[nodiscard]] double root(CasePurpose purpose) const {
         if (empty()) return 0.0;
         const double widening = purpose == CasePurpose::closure ? student_widening(degrees_) : 1.0;
@@ -36,7 +36,8 @@ struct AllVariances {
     Variances dissipation_rate;
 };
 
-/// Meshes are compared with the table's case, closures with the case of the table's closure on their mesh.
+/// Whether a case may be the base of a comparison: meshes are compared with the table's case, closures with
+/// the case of the table's closure on their mesh.
 bool is_base(const SolvedCase& base, CasePurpose purpose) {
     return base.purpose == CasePurpose::table ||
            (purpose == CasePurpose::closure && base.purpose == CasePurpose::mesh);
@@ -48,7 +49,7 @@ bool is_compared_with(const SolvedCase& base, const SolvedCase& other, double to
     return other.purpose == CasePurpose::mesh ? base.closure == other.closure : base.mesh == other.mesh;
 }
 
-/// The table's entry and those of the cases that are compared with it, in logarithms.
+/// The table's entry and those of the cases that are compared with it, with logarithms of k and epsilon.
 struct Group {
     LoadEntry table;
     std::vector<LoadEntry> others;
@@ -66,8 +67,8 @@ Group group_of(const SolvedCase& table, CasePurpose purpose, const std::vector<S
     return group;
 }
 
-/// The squares from which a variance with others.size() degrees of freedom comes: around the table's value
-/// for meshes, around the mean of all for closures.
+/// Returns the variance with others.size() degrees of freedom: about the table's value for meshes, about the
+/// mean of all for closures.
 LoadEntry variance_of(const Group& group, CasePurpose purpose) {
     const auto count = static_cast<double>(group.others.size());
     LoadEntry center = group.table;

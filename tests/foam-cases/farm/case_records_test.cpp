@@ -1,4 +1,4 @@
-#include "foam-cases/farm/cpu_account.hpp"
+#include "foam-cases/farm/case_records.hpp"
 
 #include <tuple>
 
@@ -6,10 +6,33 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
+#include "test_bodies.hpp"
 
 namespace samara {
 namespace {
+
+TEST(CaseRecord, OfAMissingOrDamagedFileIsEmpty) {
+    const test::TemporaryFolder folder;
+    EXPECT_TRUE(read_record(folder / "failed.json").empty());
+    EXPECT_TRUE(read_record(folder.path()).empty());
+    for (const char* text : {"", "{\"reason\": ", "[1, 2]", "null", "\xff"}) {
+        EXPECT_TRUE(read_record(folder.file("failed.json", text)).empty()) << text;
+    }
+}
+
+TEST(CaseRecord, EntriesOfAnotherTypeAreIgnored) {
+    const test::TemporaryFolder folder;
+    const nlohmann::json record = read_record(
+        folder.file("failed.json", R"({"reason": "diverged", "cpu_seconds": 2.5, "cells": "many"})"));
+    EXPECT_EQ(text_in(record, "reason"), "diverged");
+    EXPECT_EQ(text_in(record, "cpu_seconds"), "");
+    EXPECT_EQ(text_in(record, "absent"), "");
+    EXPECT_EQ(number_in(record, "cpu_seconds"), 2.5);
+    EXPECT_EQ(number_in(record, "cells"), 0.0);
+    EXPECT_EQ(number_in(record, "absent"), 0.0);
+}
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -35,7 +58,7 @@ void write_record(const test::TemporaryFolder& folder, const std::string& name, 
     std::ignore = folder.file(name + "/" + file, nlohmann::json({{"cpu_seconds", seconds}}).dump());
 }
 
-TEST(CpuAccount, SumsTheRecordsByMeshAndKind) {
+TEST(CpuAccount, SumsTheRecordsByMeshAndPart) {
     const test::TemporaryFolder folder;
     write_record(folder, "mesh_coarse", "mesh.json", 1.0);
     write_record(folder, "mesh_medium", "mesh.json", 2.0);
@@ -73,6 +96,31 @@ TEST(CpuAccount, CountsThisProcess) {
     volatile double sum = 0.0;
     while (cpu_seconds_so_far() < before + 0.02) sum = sum + 1.0;
     EXPECT_GT(sum, 0.0);
+}
+
+TEST(DiskNeed, IsOfWhatIsNotSolvedYet) {
+    const test::TemporaryFolder folder;
+    const BakePlan plan = plan_bake(test::sphere(0.01), bake_quality("preview"), 1e4);
+    ASSERT_EQ(plan.cases.size(), 2u);
+    const double all = bytes_to_solve(folder.path(), plan);
+    // A bake of this sphere left 14 MB.
+    EXPECT_GT(all, 7e6);
+    EXPECT_LT(all, 28e6);
+    static_cast<void>(folder.file(plan.quality.meshes.back().name + "/mesh.json", "{}"));
+    const double without_mesh = bytes_to_solve(folder.path(), plan);
+    EXPECT_LT(without_mesh, all);
+    static_cast<void>(folder.file(plan.cases.back().name + "/provenance.json", "{}"));
+    EXPECT_LT(bytes_to_solve(folder.path(), plan), without_mesh);
+}
+
+TEST(DiskNeed, BeyondTheDiskIsRejectedInOneLine) {
+    const test::TemporaryFolder folder;
+    require_room(folder.path(), 1e6);
+    const std::string error = test::error_of([&] { require_room(folder.path(), 1e18); });
+    EXPECT_THAT(
+        error, HasSubstr(folder.path().string() + ": what is to be solved takes about 1e+12 MB there, and "));
+    EXPECT_THAT(error, HasSubstr("make room, or name an output elsewhere"));
+    EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
-#include "converter/cases/wall_spacing.hpp"
+#include "converter/cases/case_mesh.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "converter/cases/mesh_section.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -69,7 +68,7 @@ TEST_F(TwoBlocks, WhereTheLayerIsResolvedItIsByTheVelocityAlongTheWall) {
     EXPECT_NEAR(found.above_1, 1.0, 1e-12);
 }
 
-TEST_F(TwoBlocks, FieldsOfAnotherMeshAreRefused) {
+TEST_F(TwoBlocks, FieldsOfAnotherMeshAreRejected) {
     write("100/k", "volScalarField", "internalField nonuniform List<scalar> 1(0.04);");
     EXPECT_THAT(test::error_of([&] { static_cast<void>(spacing()); }),
                 HasSubstr("fields and mesh do not belong together"));

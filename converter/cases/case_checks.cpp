@@ -1,14 +1,16 @@
-#include "converter/cases/case_setup.hpp"
+#include "converter/cases/case_checks.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
-#include "converter/openfoam/foam_bytes.hpp"
+#include <fmt/format.h>
+
 #include "converter/openfoam/foam_dictionary.hpp"
-#include "converter/openfoam/poly_mesh.hpp"
+#include "converter/openfoam/foam_scanner.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -16,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names that stand for names, files that include files.
+// The depth to which names that refer to names, and files that include files, are followed.
 constexpr int most_steps = 4;
 
-/// The dictionary in the file; nothing where there is none, or it cannot be read.
+/// Reads the dictionary in the file; nothing where there is none, or it cannot be read.
 std::optional<FoamDictionary> dictionary_in(const fs::path& file) {
     if (!foam_file_exists(file)) return std::nullopt;
     try {
@@ -29,7 +31,7 @@ std::optional<FoamDictionary> dictionary_in(const fs::path& file) {
     }
 }
 
-/// A dictionary and what its includes bring, the nearest first.
+/// A dictionary and those that it includes, the nearest first.
 using Scopes = std::vector<FoamDictionary>;
 
 bool is_within(const fs::path& file, const fs::path& folder) {
@@ -47,7 +49,7 @@ void add_included(const FoamDictionary& dictionary, const fs::path& folder, int 
     }
 }
 
-/// `folder`: of the case, out of which nothing is included.
+/// Returns the scopes of a dictionary. `folder`: the case's, out of which nothing is included.
 Scopes scopes_of(const FoamDictionary& dictionary, const fs::path& folder) {
     Scopes scopes = {dictionary};
     add_included(dictionary, folder, most_steps, scopes);
@@ -61,8 +63,8 @@ std::optional<std::string> entry_of(const Scopes& scopes, const std::string& nam
     return std::nullopt;
 }
 
-/// The last word of a value, or its brackets, with a $name replaced by what it stands for; nothing where that
-/// is said nowhere.
+/// Returns the last word of a value, or its brackets, with a $name replaced by its value; nothing where that
+/// is not defined.
 std::optional<std::string> plain_value(std::string text, const Scopes& scopes) {
     for (int step = 0; step < most_steps; ++step) {
         if (!text.ends_with(')')) text = text.substr(text.find_last_of(" \t\n") + 1);
@@ -91,15 +93,15 @@ std::optional<double> viscosity_of(const fs::path& folder) {
         if (!properties) continue;
         const Scopes scopes = scopes_of(*properties, folder);
         for (const char* model : {"transportModel", "viscosityModel"}) {
-            const auto kind = entry_of(scopes, model);
-            if (kind && *kind != "Newtonian" && *kind != "constant") return std::nullopt;
+            const auto type = entry_of(scopes, model);
+            if (type && *type != "Newtonian" && *type != "constant") return std::nullopt;
         }
         return number_in(scopes, "nu");
     }
     return std::nullopt;
 }
 
-/// The vector of "uniform (x y z)" or "uniform $name"; nothing of another value.
+/// Returns the vector of "uniform (x y z)" or "uniform $name"; nothing for another value.
 std::optional<Vector3d> uniform_in(const std::string& text, const Scopes& scopes) {
     if (!text.starts_with("uniform") && !text.starts_with('$')) return std::nullopt;
     const std::size_t start = text.starts_with('$') ? 0 : text.find_first_not_of(" \t\n", 7);
@@ -108,7 +110,8 @@ std::optional<Vector3d> uniform_in(const std::string& text, const Scopes& scopes
     return value ? foam_vector(*value) : std::nullopt;
 }
 
-/// What the patches of a velocity say of the flow that they let in: all the same, or nothing is known.
+/// Returns the velocity of the flow that the patches prescribe; nothing where they prescribe none, or
+/// different ones.
 std::optional<Vector3d> flow_in(const FoamDictionary& velocity, const fs::path& folder) {
     const auto boundary = velocity.dictionaries().find("boundaryField");
     if (boundary == velocity.dictionaries().end()) return std::nullopt;
@@ -134,7 +137,7 @@ std::optional<Vector3d> flow_of(const fs::path& folder) {
     return std::nullopt;
 }
 
-/// The words of "(a b)" or "a", without quotes.
+/// Returns the words of "(a b)" or "a", without quotes.
 std::vector<std::string> words_of(std::string text) {
     std::erase_if(text, [](char c) { return c == '(' || c == ')' || c == '"'; });
     std::istringstream stream(text);
@@ -162,10 +165,6 @@ void take_forces(const fs::path& folder, CaseSetup& setup) {
     }
 }
 
-bool is_word(const std::string& name) {
-    return name.find_first_of("*+?[]{}|^$\\\\()") == std::string::npos;
-}
-
 }  // namespace
 
 CaseSetup read_case_setup(const fs::path& folder) {
@@ -176,24 +175,105 @@ CaseSetup read_case_setup(const fs::path& folder) {
     return setup;
 }
 
-std::optional<double> area_of_patches(const fs::path& poly_mesh, const std::vector<std::string>& patches) {
-    for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"}) {
-        if (!foam_file_exists(poly_mesh / name)) return std::nullopt;
+namespace {
+
+// A value this far from the median is no part of a settled flow, but of a damaged file or a diverging solver.
+// The limits were chosen far beyond any oscillation of a wake.
+constexpr double most_over_median = 10.0;
+constexpr double most_over_scatter = 50.0;
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::size_t first_index(const QuantityHistory& history, double start) {
+    const auto first = std::lower_bound(history.times.begin(), history.times.end(), start);
+    return static_cast<std::size_t>(first - history.times.begin());
+}
+
+bool same_time(double a, double b) {
+    return std::abs(a - b) <= 1e-6 * std::abs(b);
+}
+
+// Throws where `history` lacks one of the times of `other`.
+void require_times_of(const QuantityHistory& other, const QuantityHistory& history, double start,
+                      const std::string& remedy) {
+    std::size_t i = first_index(history, start);
+    for (std::size_t j = first_index(other, start); j < other.times.size(); ++j, ++i) {
+        const double time = other.times[j];
+        if (i < history.times.size() && same_time(history.times[i], time)) continue;
+        // A history that is ahead lacks the time; one that is behind has times that the other lacks, which
+        // the call with the two exchanged reports.
+        if (i < history.times.size() && history.times[i] < time) return;
+        throw Error(fmt::format(
+            "{}: has no {} at the time {:.10g}, which {} has: it was emptied, cut short, or its run's "
+            "file is missing; {}",
+            history.files.at(time).string(), history.name, time, other.files.at(time).string(), remedy));
     }
-    const PolyMesh mesh = read_poly_mesh(poly_mesh);
-    double area = 0.0;
-    for (const std::string& pattern : patches) {
-        const bool is_start = pattern.ends_with(".*");
-        const std::string start = is_start ? pattern.substr(0, pattern.size() - 2) : pattern;
-        if (!is_word(start)) return std::nullopt;
-        for (const FoamPatch& patch : mesh.patches) {
-            if (is_start ? !patch.name.starts_with(start) : patch.name != start) continue;
-            for (std::size_t i = 0; i < patch.size; ++i) {
-                area += face_geometry(mesh.corners(patch.start + i)).area.norm();
-            }
+}
+
+void require_even_steps(const QuantityHistory& history, double start, const std::string& remedy) {
+    const std::size_t first = first_index(history, start);
+    std::vector<double> steps;
+    for (std::size_t i = first + 1; i < history.times.size(); ++i) {
+        steps.push_back(history.times[i] - history.times[i - 1]);
+    }
+    const double usual = median(steps);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps[i] <= 2.0 * usual * (1.0 + 1e-6)) continue;
+        const double before = history.times[first + i];
+        throw Error(fmt::format(
+            "{}: has nothing between the times {:.10g} and {:.10g}; a run's file was emptied or is "
+            "missing; {}",
+            history.files.at(before).string(), before, before + steps[i], remedy));
+    }
+}
+
+}  // namespace
+
+void require_whole(const std::vector<QuantityHistory>& histories, double start, const std::string& remedy) {
+    for (const QuantityHistory& history : histories) {
+        for (const QuantityHistory& other : histories) require_times_of(other, history, start, remedy);
+    }
+    if (!histories.empty()) require_even_steps(histories.front(), start, remedy);
+}
+
+void require_plausible(const QuantityHistory& history, double start, const std::string& remedy) {
+    const std::size_t first = first_index(history, start);
+    const auto reject = [&](std::size_t i, const std::string& why) {
+        const double size = history.is_scalar ? history.values[i].x() : history.values[i].norm();
+        throw Error(fmt::format(
+            "{}: the {} {} {:.4g} at the time {:.10g}, {}; {}", history.files.at(history.times[i]).string(),
+            history.name, history.is_scalar ? "is" : "has the size", size, history.times[i], why, remedy));
+    };
+    Vector3d middle;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> components;
+        for (std::size_t i = first; i < history.values.size(); ++i)
+            components.push_back(history.values[i][axis]);
+        middle[axis] = median(std::move(components));
+    }
+    std::vector<double> distances;
+    for (std::size_t i = first; i < history.values.size(); ++i) {
+        distances.push_back((history.values[i] - middle).norm());
+    }
+    const double scatter = median(distances);
+    const double most =
+        most_over_median * std::max(middle.norm(), history.noise) + most_over_scatter * scatter;
+    for (std::size_t i = first; i < history.values.size(); ++i) {
+        if (history.values[i].norm() > history.largest) {
+            reject(i, fmt::format("beyond any flow's ({:.4g}): diverged or damaged", history.largest));
+        }
+        if (history.is_scalar && history.values[i].x() < 0.0)
+            reject(i, "which is never negative: diverged or damaged");
+        if (distances[i - first] > most) {
+            reject(i, fmt::format("far from the others (about {:.4g}): damaged, or not settled",
+                                  history.is_scalar ? middle.x() : middle.norm()));
         }
     }
-    return area > 0.0 ? std::optional(area) : std::nullopt;
 }
 
 }  // namespace samara

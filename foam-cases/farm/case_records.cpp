@@ -1,17 +1,37 @@
-#include "foam-cases/farm/cpu_account.hpp"
+#include "foam-cases/farm/case_records.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include "foam-cases/farm/case_record.hpp"
+#include "converter/cases/case_reduction.hpp"
+#include "samara/core/base/error.hpp"
+#include "samara/core/files/content_hash.hpp"
+#include "samara/formats/json_text.hpp"
 
 namespace samara {
+
+nlohmann::json read_record(const std::filesystem::path& file) {
+    if (!std::filesystem::is_regular_file(file)) return nlohmann::json::object();
+    nlohmann::json record = parse_json_or_discard(read_bytes(file));
+    return record.is_object() ? record : nlohmann::json::object();
+}
+
+std::string text_in(const nlohmann::json& record, const char* name) {
+    const auto found = record.find(name);
+    return found != record.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+double number_in(const nlohmann::json& record, const char* name) {
+    const auto found = record.find(name);
+    return found != record.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
 
-// Counts a record, where it is there.
+// Adds a record, where it exists.
 void add_record(CpuPart& part, const fs::path& file) {
     const nlohmann::json record = read_record(file);
     if (record.empty()) return;
@@ -19,7 +39,7 @@ void add_record(CpuPart& part, const fs::path& file) {
     part.seconds += number_in(record, "cpu_seconds");
 }
 
-// The cases or falls on a mesh that are solved.
+// Returns the solved cases or falls on a mesh.
 template <class Entry>
 CpuPart solved_on(const std::string& mesh, const std::string& what, const fs::path& folder,
                   const std::vector<Entry>& entries) {
@@ -84,6 +104,51 @@ std::string account_as_text(const CpuAccount& account) {
         add(part.what, part.count > 0 ? fmt::format("{}", part.count) : "", part.seconds);
     add("all", "", all);
     return text;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Measured on the meshes and cases of a sphere's preview, 5,400 and 18,700 cells: fields in binary, histories
+// and logs.
+constexpr double bytes_of_mesh = 1.5e6;
+constexpr double bytes_of_mesh_per_cell = 200.0;
+constexpr double bytes_of_case = 3e5;
+constexpr double bytes_of_case_per_cell = 270.0;
+// Two states are kept; histories and log grow with the steps.
+constexpr double bytes_of_fall_per_cell = 600.0;
+constexpr double bytes_of_fall_per_step = 2500.0;
+
+}  // namespace
+
+double bytes_to_solve(const fs::path& folder, const BakePlan& plan) {
+    double bytes = 0.0;
+    const std::vector<FlowMesh> meshes = plan.all_meshes();
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (fs::exists(folder / meshes[i].name / "mesh.json")) continue;
+        bytes += bytes_of_mesh + bytes_of_mesh_per_cell * plan.cells[i];
+    }
+    for (const BakeCase& entry : plan.cases) {
+        if (is_solved(folder / entry.name)) continue;
+        bytes += bytes_of_case + bytes_of_case_per_cell * cells_of(plan, entry.mesh);
+    }
+    for (const FreeFall& fall : plan.falls) {
+        if (is_solved(folder / fall.name)) continue;
+        bytes += bytes_of_fall_per_cell * cells_of(plan, fall.mesh) +
+                 bytes_of_fall_per_step * fall.duration / fall.time_step;
+    }
+    return bytes;
+}
+
+void require_room(const fs::path& folder, double bytes) {
+    std::error_code unknown;
+    const auto free = static_cast<double>(fs::space(folder, unknown).available);
+    if (unknown || free > 0.5 * bytes) return;
+    throw Error(fmt::format(
+        "{}: what is to be solved takes about {:.3g} MB there, and {:.3g} MB are free on its disk; make "
+        "room, or name an output elsewhere",
+        folder.string(), 1e-6 * bytes, 1e-6 * free));
 }
 
 }  // namespace samara
