@@ -17,7 +17,6 @@
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "samara/core/base/turn.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {

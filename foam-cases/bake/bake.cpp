@@ -23,8 +23,8 @@
 #include "samara/commands/shared/progress.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 

@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/base/turn.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {

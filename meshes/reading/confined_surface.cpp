@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/files/confined_process.hpp"
 #include "samara/core/surface/welded_surface.hpp"
 

@@ -19,7 +19,6 @@
 #include "meshes/reading/shape_reader.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"

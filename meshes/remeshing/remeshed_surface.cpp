@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "meshes/checks/triangle_fans.hpp"
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {

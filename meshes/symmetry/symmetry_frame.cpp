@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 
 #include "meshes/symmetry/symmetry_group.hpp"
-#include "samara/core/base/turn.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {

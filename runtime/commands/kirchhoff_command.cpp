@@ -17,7 +17,6 @@
 #include "samara/commands/shared/progress.hpp"
 #include "samara/commands/vector_words.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/vector_json.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"

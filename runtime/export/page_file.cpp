@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/core/base/base64.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/page_bytes.hpp"

@@ -13,9 +13,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/input_file.hpp"
-#include "samara/core/files/json_size.hpp"
 #include "samara/core/surface/display_image.hpp"
-#include "samara/core/surface/unit_normal.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/formats/toml_keys.hpp"
 
 namespace samara {

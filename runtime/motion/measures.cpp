@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/motion/autorotation.hpp"
 #include "samara/motion/inclination.hpp"
 

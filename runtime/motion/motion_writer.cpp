@@ -6,8 +6,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/version.hpp"
-#include "samara/core/body/surface_file.hpp"
-#include "samara/core/files/row_major.hpp"
+#include "samara/core/body/file_arrays.hpp"
 #include "samara/motion/display_group.hpp"
 #include "samara/motion/motion_rules.hpp"
 #include "samara/motion/obstacle_file.hpp"

@@ -11,8 +11,8 @@
 
 #include "samara/analysis/advice/density_warning.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
-#include "samara/core/body/principal_extents.hpp"
-#include "samara/core/body/total_error.hpp"
+#include "samara/core/body/body.hpp"
+#include "samara/core/body/table_errors.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/physics/fluid.hpp"

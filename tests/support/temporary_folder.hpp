@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 
 namespace samara::test {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {

@@ -13,7 +13,7 @@
 
 #include "samara/commands/shared/guarded_program.hpp"
 #include "samara/commands/shared/print.hpp"
-#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/motion/file_check.hpp"

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "samara/commands/shared/print.hpp"
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 
 namespace samara {
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 
@@ -64,6 +65,19 @@ MassProperties mass_properties(const Body& body, const MassSpecification& mass) 
     result.center_of_mass = mass.center_of_mass.value_or(moments.centroid);
     result.inertia = mass.inertia.value_or(uniform_inertia(moments, result.mass / moments.volume));
     return result;
+}
+
+Vector3d principal_extents(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vector3d lowest = Vector3d::Constant(infinity);
+    Vector3d highest = -lowest;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        const Vector3d place = axes.transpose() * vertex;
+        lowest = lowest.cwiseMin(place);
+        highest = highest.cwiseMax(place);
+    }
+    return highest - lowest;
 }
 
 }  // namespace samara

@@ -113,4 +113,7 @@ struct MassProperties {
 /// What a mass that is given to a body comes to. It is not checked.
 MassProperties mass_properties(const Body& body, const MassSpecification& mass);
 
+/// The body's lengths along its principal axes (m), shortest first.
+Vector3d principal_extents(const Body& body);
+
 }  // namespace samara

@@ -9,11 +9,10 @@
 #include "samara/core/base/version.hpp"
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/body_file_groups.hpp"
-#include "samara/core/body/surface_file.hpp"
+#include "samara/core/body/file_arrays.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
-#include "samara/core/files/row_major.hpp"
 
 namespace samara {
 namespace {

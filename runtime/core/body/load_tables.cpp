@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "samara/core/base/numbers.hpp"
+#include "samara/core/body/planned_region.hpp"
+#include "samara/core/body/table_errors.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
@@ -53,6 +56,8 @@ LoadEntry interpolated(const LoadTables& tables, const std::vector<LoadEntry>& e
     return result;
 }
 
+constexpr const char* names[error_source_count] = {"tail", "symmetry", "mesh", "closure", "interpolation"};
+
 }  // namespace
 
 LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept {
@@ -82,6 +87,26 @@ LoadTables at_reynolds_number(const LoadTables& tables, double reynolds_number) 
 LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
                              double reynolds_number) noexcept {
     return interpolated(tables, tables.errors, direction, reynolds_number);
+}
+
+bool PlannedRegion::holds(const Vector3d& direction) const noexcept {
+    if (subdivisions == 0) return true;
+    const OctahedralCell cell = octahedral_cell(subdivisions, direction);
+    const int row = cell.row + (cell.row_fraction < 0.5 ? 0 : 1);
+    const int column = cell.column + (cell.column_fraction < 0.5 ? 0 : 1);
+    const std::size_t side = 2 * as_index(subdivisions) + 1;
+    return planned[as_index(row) * side + as_index(column)] != 0;
+}
+
+const char* name_of(ErrorSource source) {
+    return names[static_cast<std::size_t>(source)];
+}
+
+std::optional<ErrorSource> error_source(std::string_view name) {
+    for (std::size_t i = 0; i < error_source_count; ++i) {
+        if (name == names[i]) return static_cast<ErrorSource>(i);
+    }
+    return std::nullopt;
 }
 
 }  // namespace samara

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace samara {
 
@@ -25,5 +27,12 @@ struct ErrorShare {
     double turbulent_kinetic_energy;  ///< likewise
     double dissipation_rate;          ///< likewise
 };
+
+/// The sources' errors of one quantity together, in quadrature: 0 where there are none.
+inline double total_error(const std::vector<ErrorShare>& sources, double ErrorShare::*quantity) {
+    double squares = 0.0;
+    for (const ErrorShare& share : sources) squares += share.*quantity * (share.*quantity);
+    return std::sqrt(squares);
+}
 
 }  // namespace samara

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "samara.h"
-#include "samara/core/c_interface/bodies.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
+#include "samara/core/c_interface/objects.hpp"
 
 namespace {
 

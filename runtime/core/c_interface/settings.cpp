@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/number_limits.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
 #include "samara/core/surface/surface_patches.hpp"

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "samara.h"
-#include "samara/core/base/number_limits.hpp"
-#include "samara/core/c_interface/bodies.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
 #include "samara/core/c_interface/objects.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/body/mass_check.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/body_check.hpp"
 #include "samara/core/dynamics/dynamic_coefficients.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/core/surface/surface_patches.hpp"
@@ -327,6 +327,20 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     if (!body.dynamic || physics.loads != Loads::table || physics.dynamic != Dynamic::of_body) return;
     const std::string error = error_of(body.dynamic->values);
     if (!error.empty()) throw Error(fmt::format("body '{}': dynamic.{}", name, error));
+}
+
+std::shared_ptr<const ImmersedBody> PreparedBodies::get(const Body& body, const BodyPhysics& physics,
+                                                        const Fluid& fluid, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+        return entry.fluid_density == fluid.density && entry.viscosity == fluid.viscosity &&
+               entry.physics == physics;
+    });
+    if (found != entries_.end()) return found->body;
+    auto prepared = std::make_shared<const ImmersedBody>(make_immersed_body(body, physics, fluid, name));
+    if (entries_.size() == most_) entries_.erase(entries_.begin());
+    entries_.push_back({physics, fluid.density, fluid.viscosity, prepared});
+    return prepared;
 }
 
 }  // namespace samara

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/body/surface_elements.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/surface_loads.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/core/surface/surface_patches.hpp"
 

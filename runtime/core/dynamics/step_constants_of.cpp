@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "samara/core/dynamics/immersed_body.hpp"
-#include "samara/core/kernel/wake_noise.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 
 namespace samara {
 namespace {

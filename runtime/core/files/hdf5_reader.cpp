@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_checks.hpp"
-#include "samara/core/files/json_size.hpp"
+#include "samara/core/files/input_file.hpp"
 
 namespace samara {
 namespace {

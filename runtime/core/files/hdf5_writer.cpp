@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/replace_file.hpp"
 

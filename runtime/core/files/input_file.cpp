@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 
 #include <fcntl.h>
@@ -30,6 +31,30 @@ std::string error_of_kind(const struct stat& status) {
 
 Error error(const std::filesystem::path& path, const std::string& what) {
     return Error(fmt::format("{}: {}", path.string(), what));
+}
+
+constexpr std::size_t most_bytes = 64U << 20U;
+
+/// How many lists and objects are open at once; of what is no JSON, at least as many as a parser sees open
+/// before it finds out.
+int depth_of(std::string_view text) {
+    int depth = 0;
+    int deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char letter = text[i];
+        if (in_string) {
+            if (letter == '\\') ++i;  // what follows ends no string
+            in_string = letter != '"';
+        } else if (letter == '"') {
+            in_string = true;
+        } else if (letter == '[' || letter == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if (letter == ']' || letter == '}') {
+            --depth;
+        }
+    }
+    return deepest;
 }
 
 }  // namespace
@@ -108,6 +133,12 @@ FileState state_of(const InputFile& file) {
     struct stat status = {};
     ::fstat(file.descriptor(), &status);
     return {status.st_dev, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+std::string error_of_json_size(std::string_view text) {
+    if (text.size() > most_bytes) return fmt::format("is longer than {} MB", most_bytes >> 20U);
+    if (depth_of(text) <= most_json_depth) return {};
+    return fmt::format("nests more than {} lists and objects", most_json_depth);
 }
 
 }  // namespace samara

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <tuple>
 
 #include <sys/types.h>
@@ -56,5 +57,12 @@ class InputFile {
 using FileState = std::tuple<dev_t, ino_t, off_t, std::time_t, long>;
 
 FileState state_of(const InputFile& file);
+
+/// How many lists and objects of a JSON text may be open at once: readers work by recursion.
+inline constexpr int most_json_depth = 100;
+
+/// What is wrong with the size or the depth of a JSON text, or an empty text: whoever reads it stays within
+/// 64 MB and most_json_depth.
+std::string error_of_json_size(std::string_view text);
 
 }  // namespace samara

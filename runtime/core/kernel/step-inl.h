@@ -8,7 +8,7 @@
 #endif
 
 #include "samara/core/kernel/body_state.hpp"
-#include "samara/core/kernel/wake-inl.h"
+#include "samara/core/kernel/loads-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {

@@ -30,6 +30,15 @@ struct Fluid {
 };
 
 /// The fluid of that name ("water" or "air", at 20 degrees Celsius and 101325 Pa), or nothing.
-std::optional<Fluid> fluid_preset(const std::string& name);
+inline std::optional<Fluid> fluid_preset(const std::string& name) {
+    if (name == "water") return Fluid{.density = 998.2, .viscosity = 1.002e-3};
+    if (name == "air") return Fluid{.density = 1.204, .viscosity = 1.825e-5};
+    return std::nullopt;
+}
+
+/// The largest Reynolds number at which the flow around a blunt body is still free of turbulence, so that the
+/// k-epsilon model does not hold: some 300 for a sphere's wake (Johnson & Patel, J. Fluid Mech. 378, 1999).
+/// Cases below it are baked as laminar, and fly without turbulence.
+inline constexpr double laminar_reynolds_number = 300.0;
 
 }  // namespace samara

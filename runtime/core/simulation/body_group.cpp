@@ -11,8 +11,8 @@
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/contact/ground_contact.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/dynamics/prepared_bodies.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "samara/core/simulation/world_pose.hpp"
 

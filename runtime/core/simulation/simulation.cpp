@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/simulation/body_group.hpp"

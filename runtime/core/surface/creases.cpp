@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 

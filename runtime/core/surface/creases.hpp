@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface.hpp"
 
 namespace samara {

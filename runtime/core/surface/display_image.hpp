@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/surface/display_mesh.hpp"
 
 namespace samara {
@@ -29,6 +30,14 @@ inline bool add_image(DisplayMesh& display, DisplayImage image) {
     if (together > most_image_bytes_together) return false;
     display.images.push_back(std::move(image));
     return true;
+}
+
+/// The direction of a normal as a file gives it, of length one: of any length but zero, also where its square
+/// under- or overflows. What has no direction (zero, infinite) gets z.
+inline Vector3d unit_normal(const Vector3d& given) {
+    const double largest = given.cwiseAbs().maxCoeff();
+    if (!(largest > 0.0) || !given.allFinite()) return Vector3d::UnitZ();
+    return (given / largest).normalized();
 }
 
 }  // namespace samara

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "samara/core/base/as_index.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {

@@ -18,7 +18,6 @@
 #include "samara/core/surface/display_image.hpp"
 #include "samara/core/surface/mesh_text.hpp"
 #include "samara/core/surface/polygon_triangles.hpp"
-#include "samara/core/surface/unit_normal.hpp"
 
 namespace samara {
 namespace {

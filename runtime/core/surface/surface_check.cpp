@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/as_index.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 #include "samara/core/surface/welded_surface.hpp"

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {

@@ -9,6 +9,7 @@
 #include "samara/core/kernel/kernel.hpp"
 #include "samara/core/kernel/wind_constants.hpp"
 #include "samara/core/wind/wind.hpp"
+#include "samara/core/wind/wind_grid.hpp"
 
 namespace samara {
 
@@ -53,5 +54,15 @@ double energy_spectrum(const WindGusts& gusts, double k) noexcept;
 /// velocity has the same variance in every one of them, rms^2 in all. The first band holds what lies below
 /// it; what lies above the last, 6 % of von Karman's energy and 10 % of Kaimal's, is spread over all.
 std::vector<GustWave> gust_waves(const WindGusts& gusts);
+
+/// A grid's wind at one place and time.
+struct GridWind {
+    Vector3d velocity = Vector3d::Zero();  ///< m/s, world axes
+    Matrix3d gradient = Matrix3d::Zero();  ///< 1/s: (i, j) is that of component i along axis j
+    Vector3d rate = Vector3d::Zero();      ///< m/s^2: of the velocity at the place
+};
+
+/// The wind of a file at a place (m, world) and time (s).
+GridWind grid_wind(const WindFile& file, const Vector3d& place, double time) noexcept;
 
 }  // namespace samara

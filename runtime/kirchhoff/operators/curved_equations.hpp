@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samara/core/base/large_array.hpp"
+#include "samara/core/base/machine_memory.hpp"
 #include "samara/kirchhoff/operators/boundary_elements.hpp"
 #include "samara/kirchhoff/panels/curved_panels.hpp"
 #include "samara/kirchhoff/solvers/block_solver.hpp"

@@ -10,7 +10,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
-#include "samara/core/wind/grid_wind.hpp"
+#include "samara/core/wind/wind_field.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

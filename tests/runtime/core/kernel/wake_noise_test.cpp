@@ -1,6 +1,4 @@
 // The slip by which a body's own wake makes its loads fluctuate.
-#include "samara/core/kernel/wake_noise.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "samara/core/dynamics/loads.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "samara/core/kernel/kernel.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/reference_step.hpp"
 
