@@ -67,7 +67,7 @@ Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& o
     Surface surface = labelled(label, [&] { return mended(read); });
     tell(progress, triangles_welded);
     if (options.flip) {
-        for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
+        for (std::size_t t = 0; t < surface.triangle_count(); ++t) reverse_triangle(surface, t);
     }
     // Before scaling: errors name places as the file has them.
     surface = labelled(label, [&] { return with_parts_joined(surface); });

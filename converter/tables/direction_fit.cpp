@@ -22,7 +22,7 @@ std::variant<TurnedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry
 }
 
 Matrix3d turn_from(const TurnedSample& sample, const Vector3d& direction) {
-    return turn_between(sample.direction, direction).toRotationMatrix();
+    return rotation_between(sample.direction, direction).toRotationMatrix();
 }
 
 LoadEntry turned(const TurnedSample& sample, const LoadEntry& entry, const Vector3d& direction) {

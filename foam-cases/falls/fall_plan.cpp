@@ -238,7 +238,7 @@ BodyState identification_start(const Body& body, int index) {
     const Vector3d gravity =
         principal_axes(body.moments) * Vector3d(direction[0], direction[1], direction[2]).normalized();
     BodyState start;
-    start.orientation = turn_between(gravity, -Vector3d::UnitZ());
+    start.orientation = rotation_between(gravity, -Vector3d::UnitZ());
     return start;
 }
 

@@ -127,7 +127,7 @@ Matrix3d frame_about(const Vector3d& axis) {
     axis.cwiseAbs().maxCoeff(&largest);
     const Vector3d along = axis[largest] < 0.0 ? Vector3d(-axis) : axis;
     // The smallest turn that takes the shape's axis there.
-    return turn_between(Vector3d::Unit(largest), along).toRotationMatrix();
+    return rotation_between(Vector3d::Unit(largest), along).toRotationMatrix();
 }
 
 AlignedGroup aligned_group(const std::vector<Matrix3d>& elements) {

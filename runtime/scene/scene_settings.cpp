@@ -1,6 +1,6 @@
 #include "samara/scene/scene_settings.hpp"
 
-#include "samara/core/simulation/simulation_surroundings.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 
 namespace samara {
 

@@ -11,11 +11,12 @@ namespace samara {
 /// throws.
 class Error : public std::runtime_error {
   public:
-    /// An error of that text.
+    /// Makes an error with the message.
     explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// What the work returns. Its Errors get "LABEL: " before them: what it is done on, most often a file.
+/// Calls `work` and returns its result. Puts "LABEL: " before the text of any Error that it throws; the label
+/// is most often a file's name.
 template <typename Work>
 auto labelled(const std::string& label, const Work& work) {
     try {
@@ -25,8 +26,8 @@ auto labelled(const std::string& label, const Work& work) {
     }
 }
 
-/// What the work returns. Where its Errors name `stand_in`, a file that was made on the way and is gone when
-/// they are read, they name `file`.
+/// Calls `work` and returns its result. In the text of any Error that it throws, puts `file` in place of
+/// `stand_in`, a temporary file that no longer exists when the user reads the message.
 template <typename Work>
 auto naming(const std::string& file, const std::string& stand_in, const Work& work) {
     try {

@@ -28,7 +28,7 @@ Matrix6d nearest_semidefinite(const Matrix6d& symmetric) {
            solver.eigenvectors().transpose();
 }
 
-Quaterniond turn_between(const Vector3d& from, const Vector3d& to) {
+Quaterniond rotation_between(const Vector3d& from, const Vector3d& to) {
     return Quaterniond::FromTwoVectors(from, to);
 }
 

@@ -10,7 +10,7 @@
 namespace samara {
 namespace {
 
-/// A character in UTF-8: how many bytes it takes, 0 where there is none, and its number.
+/// A character in UTF-8: its length in bytes, 0 where the bytes are none, and its code point.
 struct Character {
     std::size_t bytes = 0;
     std::uint32_t code = 0;
@@ -27,8 +27,9 @@ Character first_character(std::string_view text) {
         if ((byte(i) & 0xc0U) != 0x80U) return {};
         code = code << 6U | (byte(i) & 0x3fU);
     }
-    constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800,
-                                       0x10000};  // what fewer bytes say is not said by more
+    constexpr std::uint32_t least[] = {
+        0, 0, 0x80, 0x800,
+        0x10000};  // the least code point of each length: longer encodings of the same are invalid
     const bool surrogate = code >= 0xd800 && code <= 0xdfff;
     if (code < least[bytes] || code > 0x10ffff || surrogate) return {};
     return {bytes, code};
@@ -75,7 +76,8 @@ std::string plain(std::string_view word) {
     return letters;
 }
 
-/// Letters added, dropped, changed, or swapped with their neighbours (optimal string alignment).
+/// Returns the number of letters added, dropped, changed, or swapped with their neighbours (optimal string
+/// alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = i;

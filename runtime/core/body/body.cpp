@@ -38,15 +38,15 @@ Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Ve
 }
 
 Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation) {
-    Matrix6d turn = Matrix6d::Zero();
-    turn.block<3, 3>(0, 0) = rotation;
-    turn.block<3, 3>(3, 3) = rotation;
-    return turn * tensor * turn.transpose();
+    Matrix6d to_new = Matrix6d::Zero();
+    to_new.block<3, 3>(0, 0) = rotation;
+    to_new.block<3, 3>(3, 3) = rotation;
+    return to_new * tensor * to_new.transpose();
 }
 
 double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor) {
-    // A surface that lies further out by d carries d times its area more fluid where it is blunt; a thin
-    // body, whose added mass is far above its volume, is told by its rim.
+    // A surface that lies further out by d carries fluid of d times its area where it is blunt. A thin body's
+    // added mass is far above its volume: its rim decides.
     const double carried = moments.volume + tensor.bottomRightCorner<3, 3>().trace() / 3.0;
     // Angular blocks grow with the fifth power of a length, the volume with the third.
     constexpr double of_volume = 5.0 / 3.0;

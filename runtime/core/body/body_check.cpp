@@ -17,14 +17,15 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double least_radius = 1e-9;   // m
 constexpr double most_radius = 1e9;     // m
-constexpr double rounding = 1e-6;       // of what is exact but for rounding, over its size
-constexpr double mass_rounding = 1e-9;  // likewise, of a mass that a user gives
-// A surface in flat triangles differs so far from the curved one, or from the body that it stands for.
+constexpr double rounding = 1e-6;       // relative, of quantities that are exact but for rounding
+constexpr double mass_rounding = 1e-9;  // relative, of a mass that a user gives
+// The relative difference that is allowed between a surface in flat triangles and the curved one, or the body
+// that it stands for.
 constexpr double faceting = 0.25;
 // Coefficients lie around one. Stokes flow adds 24/Re.
 constexpr double most_coefficient = 1e3;
 
-/// The radius (m) of the ball about the point that holds all vertices.
+/// Returns the radius (m) of the ball about the point that holds all vertices.
 double radius_about(const Surface& surface, const Vector3d& point) {
     double square = 0.0;
     for (const Vector3d& vertex : surface.vertices) square = std::max(square, (vertex - point).squaredNorm());
@@ -56,8 +57,8 @@ std::string error_of_moments(const Body& body, double radius) {
     const Matrix3d& second = moments.second_moments;
     if (!is_symmetric(second)) return "/moments/second_moments is not symmetric";
     const Vector3d spread = eigenvalues_of(second) / volume;
-    // At most the volume at the radius; at least a cylinder as wide as the body and as long as its volume
-    // takes.
+    // The upper bound has the whole volume at the radius; the lower one is a cylinder as wide as the body and
+    // as long as its volume takes.
     const double length = volume / (pi * radius * radius);
     if (spread.maxCoeff() > (1.0 + faceting) * radius * radius ||
         spread.minCoeff() < (1.0 - faceting) * length * length / 12.0) {
@@ -145,7 +146,7 @@ std::string error_of(const LoadTables& tables, double surface_area) {
     return {};
 }
 
-/// Beyond what coefficients of a moving body are by themselves: their size.
+/// Checks the coefficients against the body's size, beyond what error_of(DynamicCoefficients) asks.
 std::string error_of(const DynamicCoefficients& coefficients, double radius) {
     const auto place = [](const char* name) {
         return fmt::format("/dynamic_coefficients/{} is too large for the body", name);

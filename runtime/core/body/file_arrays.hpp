@@ -11,7 +11,7 @@
 
 namespace samara {
 
-/// Row-major values of a matrix or vector, for Hdf5Writer.
+/// Returns the row-major values of a matrix or vector, for Hdf5Writer.
 template <typename Derived>
 std::vector<double> row_major(const Eigen::MatrixBase<Derived>& matrix) {
     std::vector<double> values;
@@ -22,7 +22,7 @@ std::vector<double> row_major(const Eigen::MatrixBase<Derived>& matrix) {
     return values;
 }
 
-/// The inverse of row_major for a matrix of fixed size.
+/// Returns the matrix of fixed size with these row-major values.
 template <typename Matrix>
 Matrix from_row_major(const std::vector<double>& values) {
     Matrix matrix;
@@ -34,19 +34,19 @@ Matrix from_row_major(const std::vector<double>& values) {
     return matrix;
 }
 
-/// The vectors one after another: the values of a dataset of shape (n, 3).
+/// Returns the components of the vectors one after another: the values of a dataset of shape (n, 3).
 std::vector<double> flattened(const std::vector<Vector3d>& vectors);
 
-/// The inverse of flattened.
+/// Returns the vectors whose components, one after another, are the values.
 std::vector<Vector3d> unflattened(const std::vector<double>& values);
 
 /// Writes a surface as the datasets vertices (n, 3), corners (triangles, 3) and, for order 2, edge_nodes
-/// (triangles, 3) of the group: the same in body files and motion files.
+/// (triangles, 3) of the group, in body files and motion files.
 void write_surface(Hdf5Writer& file, const std::string& group, const Surface& surface,
                    const char* units = "m", const char* axes = "shape axes");
 
-/// Reads what write_surface wrote. Throws Error where a value is not finite, an index points outside the
-/// vertices, or the lengths do not fit.
+/// Reads a surface that write_surface() wrote. Throws Error where a value is not finite, an index points
+/// outside the vertices, or the lengths do not fit.
 Surface read_surface(const Hdf5Reader& file, const std::string& group);
 
 }  // namespace samara

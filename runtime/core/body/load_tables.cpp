@@ -23,7 +23,7 @@ struct ReynoldsCell {
     double fraction;
 };
 
-/// The place of a Reynolds number between the table's, in log Re, held at both ends.
+/// Returns the place of a Reynolds number between the table's, in log Re, held at both ends.
 ReynoldsCell reynolds_cell(const std::vector<double>& reynolds_numbers, double reynolds_number) noexcept {
     const auto count = static_cast<int>(reynolds_numbers.size());
     if (count == 1 || !(reynolds_number > reynolds_numbers.front())) return {0, 0.0};
@@ -34,7 +34,7 @@ ReynoldsCell reynolds_cell(const std::vector<double>& reynolds_numbers, double r
             std::log(reynolds_number / *below) / std::log(*above / *below)};
 }
 
-/// Interpolates entries or errors of the tables.
+/// Interpolates entries or errors of the tables, bilinearly on the map and linearly in log Re.
 LoadEntry interpolated(const LoadTables& tables, const std::vector<LoadEntry>& entries,
                        const Vector3d& direction, double reynolds_number) noexcept {
     const OctahedralCell cell = octahedral_cell(tables.subdivisions, tables.axes.transpose() * direction);
@@ -48,7 +48,7 @@ LoadEntry interpolated(const LoadTables& tables, const std::vector<LoadEntry>& e
         const double weight = (up != 0 ? cell.row_fraction : 1.0 - cell.row_fraction) *
                               (right != 0 ? cell.column_fraction : 1.0 - cell.column_fraction) *
                               (later != 0 ? reynolds.fraction : 1.0 - reynolds.fraction);
-        if (weight == 0.0) continue;  // also keeps a table with one Reynolds number inside its bounds
+        if (weight == 0.0) continue;  // also keeps a table of one Reynolds number within its bounds
         add_weighted(result,
                      entries[tables.index(reynolds.index + later, cell.row + up, cell.column + right)],
                      weight);

@@ -10,8 +10,8 @@ namespace samara {
 namespace {
 
 constexpr int subdivisions = 8;
-constexpr double blasius_friction = 1.33;  // of a plate, over the area of each side: times Re^-1/2
-// About the rms over the directions of three bodies beside tables by CFD (docs/surface-loads.md).
+constexpr double blasius_friction = 1.33;  // of a plate, relative to the area of each side: times Re^-1/2
+// About the rms differences from CFD over the directions of three bodies (docs/surface-loads.md).
 constexpr double error_of_force = 0.3;
 constexpr double error_of_moment = 0.3;
 
@@ -36,7 +36,7 @@ double rms(const std::vector<PressureLoads>& loads, Vector3d PressureLoads::*par
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, loads.size())));
 }
 
-/// The gradient of the linear function that is 1 at the triangle's corner k and 0 at the others.
+/// Returns the gradient of the linear function that is 1 at the triangle's corner k and 0 at the others.
 Vector3d gradient_of_corner(const Surface& surface, std::size_t triangle, std::size_t k,
                             const Vector3d& area) {
     const auto corner = [&](std::size_t i) -> const Vector3d& {
@@ -58,7 +58,8 @@ LoadTables as_tables(const SurfaceLoads& loads, double length, const SurfacePres
     tables.subdivisions = subdivisions;
     tables.reynolds_numbers = {1.0, 3.0, 1e1, 3e1, 1e2, 3e2, 1e3, 3e3, 1e4, 1e5};
     tables.stokes_throughout = true;
-    // Times direction and friction coefficient: the force of friction on the surface, and its moment.
+    // Matrices that, times direction and friction coefficient, are the force of friction on the surface and
+    // its moment.
     Matrix3d friction_force = Matrix3d::Zero();
     Matrix3d friction_moment = Matrix3d::Zero();
     const std::vector<SurfaceElement> elements = surface_elements(loads);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t most_bodies_of_a_group = 10'000'000;
 constexpr int most_threads = 1024;
-// Up to the last member that version 1 had.
+// The size up to the last member of version 1.
 constexpr std::size_t first_settings_size = offsetof(samara_settings, ground) + sizeof(double);
 constexpr std::size_t first_group_size = offsetof(samara_body_group, langevin) + sizeof(std::int32_t);
 // The first member of a version lies where the struct of the one before ended, and not in its padding, which
@@ -80,7 +80,7 @@ void read_turbulence(const samara_body_group& group, GivenGroup& body) {
     body.langevin = choice<Langevin>(group.langevin, SAMARA_LANGEVIN_WAKE, "langevin");
 }
 
-/// What the equations hold, beside loads, coefficients and turbulence, which are read before.
+/// Reads the models of the equations other than loads, coefficients and turbulence, which are read before.
 void read_models(const samara_body_group& group, GivenGroup& body) {
     body.added_mass = group.added_mass != 0;
     if (group.patches < 1 || group.patches > most_surface_patches) {

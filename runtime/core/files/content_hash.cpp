@@ -30,7 +30,7 @@ std::string in_digits(const XXH128_hash_t& hash) {
 constexpr std::string_view label = "\nsamara xxh128 ";
 constexpr std::size_t digest_bytes = label.size() + 32 + 1;
 
-/// The digest of the first `size` bytes, as it stands in files.
+/// Returns the digest of the first `size` bytes, as it stands in files.
 std::string digest_of(const InputFile& file, std::uint64_t size) {
     return fmt::format("{}{}\n", label, content_hash(file, size));
 }
@@ -42,7 +42,7 @@ std::string end_of(const InputFile& file) {
     return end;
 }
 
-/// Files whose digest was right, in this process.
+/// The states of the files whose digest this process has found right.
 class KnownFiles {
   public:
     [[nodiscard]] bool hold(const FileState& state) {

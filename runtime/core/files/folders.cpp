@@ -24,8 +24,8 @@ namespace {
 
 constexpr const char* prefix = "samara-tmp-";
 
-/// Opens and locks a folder of one's own; -1 where it is gone, or where another holds the lock and is not
-/// waited for.
+/// Opens and locks a folder of the user's own; -1 where it is gone, or where another process holds the lock
+/// and `wait` is false.
 int locked(const std::filesystem::path& folder, bool wait) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0) return -1;
@@ -51,8 +51,8 @@ void remove_those_of_the_dead(const std::filesystem::path& parent) {
     }
 }
 
-/// The folder of the library that this code is part of, such as a Python module's; empty where that is the
-/// program itself.
+/// Returns the folder of the library that this code is part of, such as a Python module's; empty where that
+/// is the program itself.
 fs::path library_folder(const fs::path& program) {
     Dl_info info = {};
     const bool known = dladdr(reinterpret_cast<const void*>(&find_share_folder), &info) != 0;
@@ -72,8 +72,8 @@ TemporaryFolder::TemporaryFolder() {
             fmt::format("TMPDIR: is no folder ({}); set it to one that can be written", unknown.message()));
     }
     remove_those_of_the_dead(parent);
-    // Another may take the new folder for one of the dead before it is locked; some file systems lock
-    // nothing.
+    // Another process may take the new folder for an abandoned one before it is locked; some file systems
+    // lock nothing.
     for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {
         if (attempt > 0) std::filesystem::remove(path_, unknown);
         std::string pattern = (parent / prefix).string() + "XXXXXX";

@@ -23,8 +23,8 @@ std::string in_words(int reason) {
                             : fmt::format("cannot be read: {}", std::strerror(reason));
 }
 
-/// What keeps what is there from being a file; empty where nothing does.
-std::string error_of_kind(const struct stat& status) {
+/// Returns why something at a path is no file; empty where it is one.
+std::string error_of_type(const struct stat& status) {
     if (S_ISREG(status.st_mode)) return {};
     return S_ISDIR(status.st_mode) ? is_folder : "is a pipe, socket or device; give a file";
 }
@@ -35,8 +35,8 @@ Error error(const std::filesystem::path& path, const std::string& what) {
 
 constexpr std::size_t most_bytes = 64U << 20U;
 
-/// How many lists and objects are open at once; of what is no JSON, at least as many as a parser sees open
-/// before it finds out.
+/// Returns the most lists and objects that are open at once; of a text that is no JSON, at least as many as a
+/// parser opens before it finds out.
 int depth_of(std::string_view text) {
     int depth = 0;
     int deepest = 0;
@@ -44,7 +44,7 @@ int depth_of(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char letter = text[i];
         if (in_string) {
-            if (letter == '\\') ++i;  // what follows ends no string
+            if (letter == '\\') ++i;  // the next character ends no string
             in_string = letter != '"';
         } else if (letter == '"') {
             in_string = true;
@@ -62,7 +62,7 @@ int depth_of(std::string_view text) {
 std::string reading_error(const std::filesystem::path& path) {
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0) return in_words(errno);
-    if (std::string kind = error_of_kind(status); !kind.empty()) return kind;
+    if (std::string type = error_of_type(status); !type.empty()) return type;
     return ::access(path.c_str(), R_OK) == 0 ? "" : in_words(errno);
 }
 
@@ -73,13 +73,14 @@ std::string read_at_most(const std::filesystem::path& path, std::size_t most) {
 InputFile::InputFile(const std::filesystem::path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
     struct stat status = {};
-    // A socket cannot be opened, nor a device without a driver: what it is says more than why.
+    // A socket cannot be opened, nor a device without a driver: its type explains more than the system's
+    // reason.
     if (descriptor_ < 0) {
         const int reason = errno;
-        const std::string kind = ::stat(path.c_str(), &status) == 0 ? error_of_kind(status) : "";
-        throw error(path, kind.empty() ? in_words(reason) : kind);
+        const std::string type = ::stat(path.c_str(), &status) == 0 ? error_of_type(status) : "";
+        throw error(path, type.empty() ? in_words(reason) : type);
     }
-    const std::string what = ::fstat(descriptor_, &status) == 0 ? error_of_kind(status) : in_words(errno);
+    const std::string what = ::fstat(descriptor_, &status) == 0 ? error_of_type(status) : in_words(errno);
     if (!what.empty()) {
         ::close(descriptor_);
         throw error(path, what);

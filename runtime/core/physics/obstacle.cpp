@@ -12,9 +12,9 @@ namespace {
 
 ObstacleMotion motion_between(const ObstacleKey& before, const ObstacleKey& after) {
     const double duration = after.time - before.time;
-    Quaterniond turn = after.orientation * before.orientation.conjugate();
-    if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
-    const Eigen::AngleAxisd about(turn);
+    Quaterniond rotation = after.orientation * before.orientation.conjugate();
+    if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
+    const Eigen::AngleAxisd about(rotation);
     return {(after.position - before.position) / duration, (about.angle() / duration) * about.axis()};
 }
 

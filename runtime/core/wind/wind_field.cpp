@@ -40,7 +40,7 @@ void set_profile(const Wind& wind, WindConstants& constants) {
 }
 
 VortexConstants constants_of(const WindVortex& vortex) {
-    return {.rankine = vortex.kind == WindVortex::Core::rankine,
+    return {.rankine = vortex.type == WindVortex::Core::rankine,
             .position = triple(vortex.position),
             .axis = triple(vortex.axis),
             .velocity = triple(vortex.velocity),
@@ -50,7 +50,7 @@ VortexConstants constants_of(const WindVortex& vortex) {
 }
 
 FanConstants constants_of(const WindFan& fan) {
-    // The bell with the momentum of an even flow through the fan's circle.
+    // The bell-shaped jet with the momentum of an even flow through the fan's circle.
     const double width = std::numbers::sqrt2 * 0.5 * fan.diameter;
     return {.position = triple(fan.position),
             .direction = triple(fan.direction),
@@ -63,18 +63,18 @@ Vector3d column(const double (&rows)[3][WindBlock::size], std::size_t lane) {
     return {rows[0][lane], rows[1][lane], rows[2][lane]};
 }
 
-/// The nodes along one axis that shape the value at a coordinate, and by how much.
+/// The nodes along one axis that determine the value at a coordinate, and their weights.
 struct AxisWeights {
     std::size_t node[4] = {};
     double value[4] = {};
-    double slope[4] = {};  ///< of the value, for one node's distance
+    double slope[4] = {};  ///< weights of the value's slope, per node distance
     int count = 0;
 };
 
-/// What is beyond the first and last node.
+/// The values beyond the first and last node.
 enum class Beyond { edge, nothing, first };
 
-/// Weights of Keys' cubic convolution with a = -1/2. `at`: in nodes from the first.
+/// Returns the weights of Keys' cubic convolution with a = -1/2. `at`: in nodes from the first.
 AxisWeights axis_weights(double at, std::size_t nodes, Beyond beyond) noexcept {
     AxisWeights weights;
     const auto last = static_cast<double>(nodes - 1);
@@ -108,7 +108,7 @@ AxisWeights axis_weights(double at, std::size_t nodes, Beyond beyond) noexcept {
         return weights;
     }
     if (beyond == Beyond::edge && (first < 0 || first + 3 >= end)) {
-        // A node beyond the edge goes on straight: it is twice the last less the one before.
+        // A node beyond the edge is extrapolated: it is twice the last less the one before.
         double values[4] = {value[0], value[1], value[2], value[3]};
         double slopes[4] = {slope[0], slope[1], slope[2], slope[3]};
         const auto fold = [&](int ghost, int near, int far) {
@@ -170,8 +170,8 @@ void WindField::add_file(double time, std::size_t count, WindBlock& block) const
 
 bool WindField::add_function(double time, const WindSpan& span, std::size_t count,
                              WindBlock& block) const noexcept {
-    // Along each axis to both sides: their mean is that over a sphere as far as the second derivatives go
-    // (Faxen), their differences are the gradient.
+    // Places on both sides along each axis: the mean is that over a sphere up to the second derivatives
+    // (Faxen), the differences are the gradient.
     double places[WindBlock::size * places_around * 3];
     double velocities[2][WindBlock::size * places_around * 3] = {};
     const std::size_t all = count * places_around;
@@ -228,7 +228,7 @@ std::string description_of(const Wind& wind) {
                             g.seed.value_or(0), g.bands);
     }
     for (const WindVortex& v : wind.vortices) {
-        text += fmt::format(" vortex {} {} {} {} {} {}", static_cast<int>(v.kind), numbers(v.position),
+        text += fmt::format(" vortex {} {} {} {} {} {}", static_cast<int>(v.type), numbers(v.position),
                             numbers(v.axis), v.circulation, v.core, numbers(v.velocity));
     }
     for (const WindFan& f : wind.fans) {
@@ -247,14 +247,14 @@ std::string description_of(const Wind& wind) {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double von_karman_factor =
-    1.339;  // Gamma(1/3)/(sqrt(pi) Gamma(5/6)): L is then the integral length
-// Wave numbers times the length, of the bands.
+// Gamma(1/3)/(sqrt(pi) Gamma(5/6)): L is then the integral length
+constexpr double von_karman_factor = 1.339;
+// The wave numbers of the bands times the length.
 constexpr double lowest = 0.1;
 constexpr double highest = 100.0;
 constexpr double nothing_below = 1e-6;
 
-/// (k1 to k2) of E dk, by Simpson's rule over ln k.
+/// Returns the integral of E from k1 to k2, by Simpson's rule over ln k.
 double energy_between(const WindGusts& gusts, double first, double last) {
     const double span = std::log(last / first);
     const int halves = 2 * static_cast<int>(std::ceil(span / 0.1));
@@ -281,7 +281,7 @@ double energy_spectrum(const WindGusts& gusts, double k) noexcept {
 }
 
 std::vector<GustWave> gust_waves(const WindGusts& gusts) {
-    // Named by no body, so that it is nobody's noise.
+    // A name that no body can have, so that the numbers are no body's noise.
     const Noise noise(gusts.seed.value_or(0), "[wind]", 0, 0);
     std::vector<GustWave> waves;
     const double ratio = std::pow(highest / lowest, 1.0 / gusts.bands);
@@ -321,7 +321,7 @@ GridWind grid_wind(const WindFile& file, const Vector3d& place, double time) noe
                                        file.repeats ? Beyond::first : Beyond::edge);
     Vector3d velocity = Vector3d::Zero();
     Vector3d rate = Vector3d::Zero();
-    Matrix3d gradient = Matrix3d::Zero();  // for one node's distance
+    Matrix3d gradient = Matrix3d::Zero();  // per node distance
     for (int l = 0; l < t.count; ++l) {
         Vector3d volume[4] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
         for (int k = 0; k < z.count; ++k) {

@@ -92,7 +92,7 @@ TEST(SymmetricPart, DirectionsWithoutSymmetryTakeTheErrorOfTheOthers) {
 
 TEST(SymmetricPart, OfABodyOfRevolutionLiesInThePlaneOfItsAxis) {
     Symmetry cone;
-    cone.kind = Symmetry::Type::axial;
+    cone.type = Symmetry::Type::axial;
     cone.axes = test::some_rotation();
     cone.axis = cone.axes.col(1);
     std::vector<DirectionSample> samples = {
@@ -108,7 +108,7 @@ TEST(SymmetricPart, OfABodyOfRevolutionLiesInThePlaneOfItsAxis) {
 
 TEST(SymmetricPart, OfACylinderBroadsideIsDragAlone) {
     Symmetry cylinder;
-    cylinder.kind = Symmetry::Type::axial;
+    cylinder.type = Symmetry::Type::axial;
     cylinder.elements.emplace_back(Vector3d(1, 1, -1).asDiagonal());
     std::vector<DirectionSample> samples = {
         sample_with(Vector3d::UnitX(), Vector3d(-1, 0.1, 0.2), Vector3d(0.1, 0.2, 0.7))};
@@ -119,7 +119,7 @@ TEST(SymmetricPart, OfACylinderBroadsideIsDragAlone) {
 
 TEST(SymmetricPart, OfASphereIsDragAloneWithItsSideForceAsError) {
     Symmetry sphere;
-    sphere.kind = Symmetry::Type::spherical;
+    sphere.type = Symmetry::Type::spherical;
     std::vector<DirectionSample> samples = {
         sample_with(Vector3d::UnitX(), Vector3d(-0.4, 0.03, 0.04), Vector3d(0.0, 0.003, 0.0))};
     keep_symmetric_part(sphere, samples);

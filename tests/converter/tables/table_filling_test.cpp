@@ -166,7 +166,7 @@ TEST(FilledMap, OfABodyOfRevolutionNeverOvershootsItsSamples) {
 
 TEST(FilledMap, OfASphereIsTheSameDragEverywhere) {
     Symmetry sphere;
-    sphere.kind = Symmetry::Type::spherical;
+    sphere.type = Symmetry::Type::spherical;
     const auto law = [](const Vector3d& d) { return LoadEntry{-0.47 * d, Vector3d::Zero(), 0.01, 0.02}; };
     EXPECT_LT(largest_error(sphere, 4, law), 1e-15);
 }

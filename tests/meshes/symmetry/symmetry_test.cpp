@@ -120,8 +120,8 @@ TEST(Symmetry, ARotatedEllipsoidHasItsElementsInItsOwnFrame) {
 
 TEST(Symmetry, ASphereIsSphericalHoweverCoarseOrUneven) {
     for (const int level : {2, 3})
-        EXPECT_EQ(symmetry_of(test::icosphere(level)).kind, Symmetry::Type::spherical);
-    EXPECT_EQ(symmetry_of(test::shaken_icosphere(3, 0.2, 1)).kind, Symmetry::Type::spherical);
+        EXPECT_EQ(symmetry_of(test::icosphere(level)).type, Symmetry::Type::spherical);
+    EXPECT_EQ(symmetry_of(test::shaken_icosphere(3, 0.2, 1)).type, Symmetry::Type::spherical);
 }
 
 TEST(Symmetry, ASpheroidIsAxialWithAMirrorAcross) {
@@ -216,7 +216,7 @@ TEST(Symmetry, AWedgeHasOneMirrorAndAnUnevenBodyNone) {
 TEST(Symmetry, ABumpAboveTheToleranceBreaksIt) {
     Surface sphere = test::icosphere(3);
     sphere.vertices.front() *= 1.1;
-    EXPECT_NE(symmetry_of(sphere).kind, Symmetry::Type::spherical);
+    EXPECT_NE(symmetry_of(sphere).type, Symmetry::Type::spherical);
 }
 
 // A ball of 12 by 6 quads, each vertex of which `radius` moves in or out.

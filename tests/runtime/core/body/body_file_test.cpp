@@ -374,7 +374,7 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
     }
     const std::string error = error_of(folder / "a.body.h5");
     EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
-                             HasSubstr("remove the group to fly with defaults")));
+                             HasSubstr("remove the group to use the defaults")));
     EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 

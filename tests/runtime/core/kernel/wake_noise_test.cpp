@@ -118,8 +118,8 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
 BodyState stepped(const ImmersedBody& body, const Vector3d& wake_fluctuation, double h,
                   const BodyState& state) {
     BodyState after = state;
-    const kernel::SeenStream stream{wake_fluctuation, wake_fluctuation, Vector3d::Zero(), true, true,
-                                    wake_fluctuation};
+    const kernel::SampledStream stream{wake_fluctuation, wake_fluctuation, Vector3d::Zero(), true, true,
+                                       wake_fluctuation};
     kernel::implicit_step(body.constants, Vector3d::Zero(), h, stream, 0, 1, nullptr, after);
     return after;
 }

@@ -54,9 +54,9 @@ Wind profile(WindProfile::Law law) {
     return wind;
 }
 
-Wind vortex(WindVortex::Core kind) {
+Wind vortex(WindVortex::Core type) {
     Wind wind;
-    wind.vortices.push_back({.kind = kind,
+    wind.vortices.push_back({.type = type,
                              .position = Vector3d(0.3, -0.2, 0.1),
                              .axis = Vector3d(1.0, 2.0, -2.0) / 3.0,
                              .circulation = 2.5,
@@ -199,9 +199,9 @@ TEST(WindProfile, IsItsLaw) {
 }
 
 TEST(WindVortex, HasItsCirculationAndItsCore) {
-    for (const auto kind : {WindVortex::Core::lamb_oseen, WindVortex::Core::rankine}) {
+    for (const auto type : {WindVortex::Core::lamb_oseen, WindVortex::Core::rankine}) {
         Wind wind;
-        wind.vortices.push_back({.kind = kind, .circulation = 2.5, .core = 0.4});
+        wind.vortices.push_back({.type = type, .circulation = 2.5, .core = 0.4});
         const WindField field = field_of(wind);
         // Far away it is a line; counter-clockwise about the axis.
         EXPECT_NEAR(there(field, Vector3d(5.0, 0.0, 3.0)).velocity.y(), 2.5 / (2.0 * pi * 5.0), 1e-13);

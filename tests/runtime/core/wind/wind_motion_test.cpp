@@ -58,9 +58,9 @@ ImmersedBody noisy_ellipsoid(Turbulence turbulence, Langevin langevin = Langevin
     return body;
 }
 
-Wind vortex(double circulation, double core, WindVortex::Core kind = WindVortex::Core::rankine) {
+Wind vortex(double circulation, double core, WindVortex::Core type = WindVortex::Core::rankine) {
     Wind wind;
-    wind.vortices.push_back({.kind = kind, .circulation = circulation, .core = core});
+    wind.vortices.push_back({.type = type, .circulation = circulation, .core = core});
     return wind;
 }
 
