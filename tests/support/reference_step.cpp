@@ -98,7 +98,7 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
 
     Vector6d acceleration = mobility_ * momentum_rate;
     acceleration.tail<3>() -=
-        omega.cross(sampled_velocity);  // the sampled turbulence turns past the body's axes
+        omega.cross(sampled_velocity);  // the sampled turbulence rotates relative to the body's axes
     MotionVector result;
     const Vector6d of_centroid = body_->to_centroid * relative;
     const auto [formed, heading] = wake_of(motion);

@@ -1,4 +1,4 @@
-// The slip by which a body's own wake makes its loads fluctuate.
+// The velocity fluctuation by which a body's own wake makes its loads fluctuate.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -100,7 +100,7 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
     state.wake = {1.0, Vector3d(0.2, 0.0, 0.1).normalized()};
     for (std::uint64_t step = 0; step < 20; ++step) {
         const BodyState after = advance(body, weightless, 0.0, h, state, noise, step).state;
-        // The same step in the stream that stands between the two slips.
+        // The same step in the stream of the mean of the two fluctuations.
         BodyState frozen = state;
         frozen.sampled_turbulence = after.sampled_turbulence;
         frozen.sampled_turbulence.velocity =
@@ -114,7 +114,7 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
     }
 }
 
-/// One step in the frozen slip of a wake (m/s, world axes).
+/// One step in the frozen fluctuation of a wake (m/s, world axes).
 BodyState stepped(const ImmersedBody& body, const Vector3d& wake_fluctuation, double h,
                   const BodyState& state) {
     BodyState after = state;
@@ -153,7 +153,7 @@ TEST(WakeNoise, HasTheShadowsAlongThePrincipalAxes) {
         1e-6 * exact.x());
 }
 
-// In the frame of the slip no load but drag changes the energy of body and fluid.
+// In the frame of the fluctuation no load but drag changes the energy of body and fluid.
 TEST(WakeNoise, MakesNoEnergyInTheFrameOfItsSlip) {
     for (const double h : {0.002, 0.05}) {
         const ImmersedBody body = ellipsoid_with_a_wake(1200.0);

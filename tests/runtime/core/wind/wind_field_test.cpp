@@ -205,12 +205,12 @@ TEST(WindVortex, HasItsCirculationAndItsCore) {
         const WindField field = field_of(wind);
         // Far away it is a line; counter-clockwise about the axis.
         EXPECT_NEAR(there(field, Vector3d(5.0, 0.0, 3.0)).velocity.y(), 2.5 / (2.0 * pi * 5.0), 1e-13);
-        // In the middle it turns as a solid.
+        // In the middle it rotates as a solid.
         const There middle = there(field, Vector3d::Zero());
         EXPECT_EQ(middle.velocity.norm(), 0.0);
         EXPECT_NEAR(middle.gradient(1, 0), 2.5 / (2.0 * pi * 0.16), 1e-12);
         EXPECT_NEAR(middle.gradient(0, 1), -2.5 / (2.0 * pi * 0.16), 1e-12);
-        // Outside the core nothing turns.
+        // Outside the core nothing rotates.
         const Matrix3d outside = there(field, Vector3d(4.0, 1.0, 0.0)).gradient;
         EXPECT_NEAR(outside(1, 0), outside(0, 1), 1e-13);
     }
