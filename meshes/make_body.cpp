@@ -15,7 +15,6 @@
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
@@ -66,7 +65,7 @@ Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& o
     Surface surface = labelled(label, [&] { return mended(read); });
     tell(progress, triangles_welded);
     if (options.flip) {
-        for (std::size_t t = 0; t < surface.triangle_count(); ++t) turn_round(surface, t);
+        for (std::size_t t = 0; t < surface.triangle_count(); ++t) reverse_triangle(surface, t);
     }
     // Before scaling: errors name places as the file has them.
     surface = labelled(label, [&] { return with_parts_joined(surface); });

@@ -10,8 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/nearest_word.hpp"
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/formats/json_text.hpp"

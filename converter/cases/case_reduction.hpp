@@ -9,8 +9,8 @@
 #include "converter/cases/case_plan.hpp"
 #include "converter/cases/shell_means.hpp"
 #include "converter/tables/symmetric_loads.hpp"
+#include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/body.hpp"
-#include "samara/formats/left_out_cases.hpp"
 
 namespace samara {
 

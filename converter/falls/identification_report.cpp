@@ -3,7 +3,7 @@
 
 #include "converter/falls/fall_identification.hpp"
 #include "samara/analysis/metrics/description.hpp"
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

@@ -16,7 +16,7 @@ constexpr const char* unsteady_factor = "unsteady factor";
 // These terms have the same value for every body.
 constexpr const char* drag_in_motion = "drag in motion";
 constexpr const char* drag_in_spin = "drag in spin";
-constexpr const char* transport_of_rotation = "turning transport";
+constexpr const char* transport_of_rotation = "rotational transport";
 
 struct Expectation {
     Matrix3d DynamicCoefficients::*member;

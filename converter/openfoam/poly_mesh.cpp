@@ -191,7 +191,8 @@ bool is_word(const std::string& name) {
 
 }  // namespace
 
-std::optional<double> area_of_patches(const std::filesystem::path& poly_mesh, const std::vector<std::string>& patches) {
+std::optional<double> area_of_patches(const std::filesystem::path& poly_mesh,
+                                      const std::vector<std::string>& patches) {
     for (const char* name : {"points", "faces", "owner", "neighbour", "boundary"}) {
         if (!foam_file_exists(poly_mesh / name)) return std::nullopt;
     }

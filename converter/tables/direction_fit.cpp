@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "converter/tables/direction_sampling.hpp"
-#include "samara/core/base/turn.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {
@@ -177,7 +177,7 @@ double ArcFit::spread_without(std::size_t sample) const {
 namespace {
 
 std::variant<RotatedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetry,
-                                                        const std::vector<Vector3d>& directions) {
+                                                         const std::vector<Vector3d>& directions) {
     switch (symmetry.type) {
         case Symmetry::Type::spherical:
             return RotatedSample{directions.front()};

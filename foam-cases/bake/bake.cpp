@@ -23,11 +23,10 @@
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

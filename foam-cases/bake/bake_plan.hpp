@@ -9,8 +9,8 @@
 #include "converter/cases/case_plan.hpp"
 #include "converter/falls/free_fall.hpp"
 #include "foam-cases/bake/bake_quality.hpp"
-#include "samara/core/base/laminar_flow.hpp"
 #include "samara/core/body/body.hpp"
+#include "samara/core/physics/fluid.hpp"
 #include "samara/scene/scene.hpp"
 
 namespace samara {

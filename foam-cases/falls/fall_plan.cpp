@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/base/turn.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/scene/terminal_speed.hpp"
 
 namespace samara {
@@ -240,7 +239,7 @@ BodyState identification_start(const Body& body, int index) {
     const Vector3d gravity =
         principal_axes(body.moments) * Vector3d(direction[0], direction[1], direction[2]).normalized();
     BodyState start;
-    start.orientation = turn_between(gravity, -Vector3d::UnitZ());
+    start.orientation = rotation_between(gravity, -Vector3d::UnitZ());
     return start;
 }
 

@@ -6,7 +6,7 @@
 #include "converter/tables/direction_fit.hpp"
 #include "converter/tables/symmetric_loads.hpp"
 #include "samara/analysis/metrics/fall_metrics.hpp"
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/kernel/noise.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 

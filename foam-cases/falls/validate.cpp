@@ -17,7 +17,7 @@
 #include "samara/analysis/comparison/reference_uncertainty.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/simulation/world_pose.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"

@@ -21,7 +21,7 @@
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 
 namespace samara {
 namespace {

@@ -11,8 +11,8 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/files/share_folder.hpp"
 
 namespace samara {
 namespace {

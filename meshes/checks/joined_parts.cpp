@@ -18,9 +18,8 @@
 
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
-#include "samara/core/base/as_index.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "samara/core/surface/surface_check.hpp"
 #include "samara/core/surface/surface_edges.hpp"

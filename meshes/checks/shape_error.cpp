@@ -8,7 +8,7 @@
 
 #include "meshes/checks/triangle_tree.hpp"
 #include "meshes/checks/volume_moments.hpp"
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 
 namespace samara {
 namespace {

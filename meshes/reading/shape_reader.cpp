@@ -20,7 +20,6 @@
 
 #include "meshes/reading/gmsh_session.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/confined_process.hpp"
 #include "samara/core/surface/obj_file.hpp"

@@ -16,7 +16,6 @@
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/remesh.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"

@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "samara/core/base/as_index.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"

@@ -10,7 +10,7 @@
 #include "meshes/checks/triangle_fans.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/remesh.hpp"
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/surface/creases.hpp"
 

@@ -16,7 +16,6 @@
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/smooth_shape.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"

@@ -10,7 +10,7 @@
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/remesh.hpp"
 #include "meshes/remeshing/smooth_shape.hpp"
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {

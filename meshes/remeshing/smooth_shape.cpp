@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {

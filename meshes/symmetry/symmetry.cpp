@@ -11,7 +11,7 @@
 
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry_group.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <Eigen/SVD>
 
-#include "samara/core/base/turn.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {

@@ -16,8 +16,8 @@
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/table_errors_report.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/body/principal_extents.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/body.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

@@ -11,7 +11,7 @@
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/motion/file_check.hpp"
 

@@ -16,7 +16,6 @@
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/kirchhoff/kirchhoff_solver.hpp"

@@ -11,8 +11,8 @@
 #include "samara/commands/option_values.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/body/body_check.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/body/mass_check.hpp"
 
 namespace samara {
 namespace {

@@ -15,7 +15,7 @@
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/base/version.hpp"
 
 namespace {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/numbers.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/shape_pose.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/export/shape_pose.hpp"
 

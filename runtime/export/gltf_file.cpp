@@ -10,7 +10,7 @@
 #include <tiny_gltf.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/core/surface/display_image.hpp"

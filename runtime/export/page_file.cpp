@@ -28,8 +28,8 @@ extern const char samara_page_end[];
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/core/base/base64.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/shaded_mesh.hpp"

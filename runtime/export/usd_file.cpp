@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/core/surface/display_image.hpp"

@@ -14,11 +14,10 @@
 #include <tiny_gltf.h>
 
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/files/input_file.hpp"
-#include "samara/core/files/json_size.hpp"
 #include "samara/core/surface/display_image.hpp"
 #include "samara/core/surface/obj_file.hpp"
-#include "samara/core/surface/unit_normal.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/files/json_size.hpp"
+#include "samara/core/files/input_file.hpp"
 
 namespace samara {
 

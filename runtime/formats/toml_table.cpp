@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/text.hpp"
 
 namespace samara {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/linear_algebra.hpp"
-#include "samara/core/base/number_limits.hpp"
+#include "samara/core/base/numbers.hpp"
 
 namespace samara {
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_check.hpp"
 #include "samara/core/surface/welded_surface.hpp"

@@ -6,8 +6,8 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/files/confined_check.hpp"
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/confined_process.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/wind/wind_file.hpp"
 #include "samara/motion/motion_file.hpp"

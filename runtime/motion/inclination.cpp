@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "samara/core/base/angles.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/base/numbers.hpp"
 
 namespace samara {
 namespace {

@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {

@@ -7,9 +7,8 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/body/surface_file.hpp"
+#include "samara/core/body/file_arrays.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
-#include "samara/core/files/row_major.hpp"
 #include "samara/motion/motion_layout.hpp"
 #include "samara/motion/motion_writer.hpp"
 

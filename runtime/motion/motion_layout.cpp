@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/body/surface_file.hpp"
-#include "samara/core/files/row_major.hpp"
+#include "samara/core/body/file_arrays.hpp"
 #include "samara/core/surface/display_image.hpp"
 
 namespace samara {

@@ -6,8 +6,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/version.hpp"
-#include "samara/core/body/surface_file.hpp"
-#include "samara/core/files/row_major.hpp"
+#include "samara/core/body/file_arrays.hpp"
 #include "samara/motion/motion_layout.hpp"
 
 namespace samara {

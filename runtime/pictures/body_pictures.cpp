@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "samara/analysis/verdicts/case_records.hpp"
-#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/pictures/body_arcs.hpp"
 

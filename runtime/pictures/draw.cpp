@@ -9,11 +9,10 @@
 
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/files/share_folder.hpp"
-#include "samara/core/files/temporary_folder.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

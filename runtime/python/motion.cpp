@@ -14,7 +14,7 @@
 #include "samara/analysis/metrics/description.hpp"
 #include "samara/analysis/metrics/ensemble.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/export/chan_file.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/export/gltf_file.hpp"

@@ -17,7 +17,7 @@
 
 #include "bindings.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/number_limits.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/formats/toml_table.hpp"
 #include "samara/scene/scene_simulation.hpp"
@@ -38,7 +38,7 @@ struct Poses {
 class LiveSimulation {
   public:
     LiveSimulation(Scene scene, int runs, std::optional<std::uint64_t> seed, int threads,
-               const std::filesystem::path& bodies)
+                   const std::filesystem::path& bodies)
         : runs_(runs) {
         require_runs_and_threads(runs, threads);
         const py::gil_scoped_release others_go_on;
@@ -360,10 +360,11 @@ void bind_simulation(py::module_& module) {
                                "m/s, world axes, shape (runs, copies, 3).")
         .def_property_readonly("angular_velocity", &member_of<PoseMember::angular_velocity>,
                                "rad/s, world axes, shape (runs, copies, 3).");
-    class_of<LiveSimulation>(module, "Simulation",
-                         "Bodies of a scene that fall call by call: any time may be asked for, poses read "
-                         "and set, all of it saved "
-                         "and restored. The motion does not depend on how the times are cut into calls.")
+    class_of<LiveSimulation>(
+        module, "Simulation",
+        "Bodies of a scene that fall call by call: any time may be asked for, poses read "
+        "and set, all of it saved "
+        "and restored. The motion does not depend on how the times are cut into calls.")
         .def(py::init<const Scene&, int, std::optional<std::uint64_t>, int, const std::filesystem::path&>(),
              py::arg("scene"), py::kw_only(), py::arg("runs") = 1, py::arg("seed") = py::none(),
              py::arg("threads") = 1, py::arg("bodies") = "",

@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/analysis/verdicts/case_records.hpp"
-#include "samara/core/base/laminar_flow.hpp"
 #include "samara/core/body/body_check.hpp"
-#include "samara/core/body/total_error.hpp"
+#include "samara/core/body/table_errors.hpp"
 #include "samara/core/physics/fluid.hpp"
 #include "samara/reports/report_blocks.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/plain_name.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "samara/core/surface/obj_file.hpp"

@@ -8,7 +8,7 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/files/share_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/formats/toml_table.hpp"
 
 namespace samara {

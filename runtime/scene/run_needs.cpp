@@ -7,7 +7,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/machine_memory.hpp"
-#include "samara/core/dynamics/prepared_bodies.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/kernel/state_block.hpp"
 #include "samara/core/physics/pose.hpp"
 #include "samara/scene/table_errors_on_path.hpp"

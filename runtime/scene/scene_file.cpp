@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/plain_name.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/input_file.hpp"
 #include "samara/core/surface/surface_patches.hpp"

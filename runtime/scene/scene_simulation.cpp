@@ -13,7 +13,7 @@
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/surroundings.hpp"
 #include "samara/core/simulation/body_group.hpp"
-#include "samara/core/simulation/simulation_surroundings.hpp"
+#include "samara/core/simulation/world_pose.hpp"
 #include "samara/motion/motion_writer.hpp"
 
 namespace samara {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/dynamics/prepared_bodies.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {

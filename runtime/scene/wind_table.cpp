@@ -77,8 +77,8 @@ WindGusts read_gusts(TomlTable& table) {
 WindVortex read_vortex(TomlTable& table) {
     using Core = WindVortex::Core;
     WindVortex vortex;
-    vortex.kind = choice<Core>(table, "kind", {{"lamb-oseen", Core::lamb_oseen}, {"rankine", Core::rankine}},
-                               vortex.kind);
+    vortex.type = choice<Core>(table, "kind", {{"lamb-oseen", Core::lamb_oseen}, {"rankine", Core::rankine}},
+                               vortex.type);
     vortex.position = table.vector("position").value_or(vortex.position);
     vortex.axis = direction(table, "axis", table.vector("axis").value_or(vortex.axis));
     vortex.circulation = required(table, "circulation", any_number, "is missing; give it in m^2/s");

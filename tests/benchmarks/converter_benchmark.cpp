@@ -9,7 +9,7 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "converter/gzip.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 
 namespace samara {
 namespace {

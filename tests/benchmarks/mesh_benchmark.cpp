@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "meshes/make_body.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara {

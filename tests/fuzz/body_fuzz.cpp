@@ -8,7 +8,7 @@
 #include "hdf5_recipe.hpp"
 #include "samara.h"
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "support/test_shapes.hpp"
 
 namespace samara::fuzz {

@@ -17,7 +17,7 @@
 #include "converter/openfoam/foam_history.hpp"
 #include "harness.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 
 namespace samara::fuzz {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "harness.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/formats/display_mesh_file.hpp"
 

@@ -6,7 +6,7 @@
 #include "harness.hpp"
 #include "hdf5_recipe.hpp"
 #include "samara/analysis/metrics/description.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/export/csv_file.hpp"
 #include "samara/motion/motion_file.hpp"
 #include "support/painted_mesh.hpp"

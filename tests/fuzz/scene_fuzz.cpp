@@ -6,7 +6,7 @@
 
 #include "harness.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/scene/scene_file.hpp"
 #include "samara/scene/scene_simulation.hpp"
 #include "support/known_bodies.hpp"

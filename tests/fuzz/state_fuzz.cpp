@@ -10,7 +10,7 @@
 #include "samara.h"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/simulation/state_bytes.hpp"
 #include "support/known_bodies.hpp"
 

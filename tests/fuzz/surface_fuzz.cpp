@@ -9,7 +9,7 @@
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/volume_moments.hpp"
 #include "meshes/reading/script_check.hpp"
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "samara/core/surface/obj_file.hpp"
 #include "samara/core/surface/stl_file.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/motion/motion.hpp"
 #include "support/test_shapes.hpp"
 

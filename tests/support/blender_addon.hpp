@@ -11,7 +11,8 @@ namespace samara::test {
 /// returns what it found. A Blender that fails, or shows an exception's trace, fails the test.
 nlohmann::json use_addon(const std::vector<std::string>& task);
 
-/// The same with a window, on a screen that is memory alone: buttons run beside it, and keys reach them.
+/// Does a task of tests/tools/use_addon.py as use_addon() does, with a window on a screen in memory alone:
+/// buttons run beside it, and keys reach them.
 nlohmann::json use_addon_in_window(const std::vector<std::string>& task);
 
 }  // namespace samara::test

@@ -13,7 +13,7 @@
 
 namespace samara::test {
 
-/// All numbers of a state.
+/// Returns all numbers of a state.
 inline std::array<double, 29> numbers_of(const BodyState& state) {
     std::array<double, 29> numbers{};
     std::size_t next = 0;
@@ -31,15 +31,15 @@ inline std::array<double, 29> numbers_of(const BodyState& state) {
     return numbers;
 }
 
-/// How far (m) the motions of a body that reaches 5 cm are apart: its place and its turn, and what the
-/// difference of the velocities makes of both in 0.1 s.
+/// Returns the distance (m) between the motions of a body that reaches 5 cm: of its place and rotation, and
+/// of the change of both in 0.1 s by the difference of the velocities.
 inline double distance(const BodyState& a, const BodyState& b) {
     return (a.position - b.position).norm() + 0.05 * a.orientation.angularDistance(b.orientation) +
            0.1 * (a.velocity.tail<3>() - b.velocity.tail<3>()).norm() +
            0.005 * (a.velocity.head<3>() - b.velocity.head<3>()).norm();
 }
 
-/// Whether all numbers of two poses are equal.
+/// Returns whether all numbers of two poses are equal.
 inline bool same(const Pose& a, const Pose& b) {
     return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
            a.velocity == b.velocity && a.angular_velocity == b.angular_velocity;

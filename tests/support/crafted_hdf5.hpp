@@ -9,7 +9,8 @@
 
 namespace samara::test {
 
-// What a stranger may do to an HDF5 file with HDF5's own library. Names are absolute paths of the file.
+// Changes that an attacker may make to an HDF5 file with HDF5's own library. Names are absolute paths of the
+// file.
 
 /// Puts an attribute of `count` zeros of the type in place of the one that is there; `count` 0: a null space.
 void put_attribute(const std::filesystem::path& file, const std::string& object, const std::string& name,
@@ -20,10 +21,10 @@ void put_attribute(const std::filesystem::path& file, const std::string& object,
 void put_dataset(const std::filesystem::path& file, const std::string& name, const H5::DataType& type,
                  const std::vector<hsize_t>& shape, const H5::DSetCreatPropList& creation = {});
 
-/// Chunks of that shape, which nothing is stored of until they are written.
+/// Returns chunks of that shape, of which nothing is stored until they are written.
 H5::DSetCreatPropList in_chunks(const std::vector<hsize_t>& chunk);
 
-/// How a dataset's chunks are stored. HDF5 finds them by another index for each `growing` and each format.
+/// The layout of a dataset's chunks. HDF5 finds them by another index for each `growing` and each format.
 struct ChunkLayout {
     std::vector<hsize_t> chunk;  ///< shape of each
     bool has_checksum = true;    ///< fletcher32 behind each
@@ -33,8 +34,8 @@ struct ChunkLayout {
 /// A new file, in HDF5's latest format or in its oldest, with one dataset /values: doubles from 1 up.
 void make_hdf5(const std::filesystem::path& file, const std::vector<hsize_t>& shape, bool in_latest_format);
 
-/// What stands in the file in place of the chunk that begins at `place`: zeros, written past the filters,
-/// which are said to be passed over where `mask` is 1.
+/// The content in place of the chunk that begins at `place`: zeros, written past the filters, which are
+/// marked as skipped where `mask` is 1.
 struct CraftedChunk {
     std::vector<hsize_t> place;
     std::size_t bytes = 0;
@@ -49,10 +50,10 @@ bool put_in_chunks(const std::filesystem::path& file, const std::string& name, c
 /// Stores a text in place of a dataset of bytes.
 void put_text(const std::filesystem::path& file, const std::string& name, const std::string& text);
 
-/// Values in another file, `bytes` of them from its beginning.
+/// Returns storage in another file, `bytes` from its beginning.
 H5::DSetCreatPropList in_other_file(const std::filesystem::path& other, hsize_t bytes);
 
-/// Values of the dataset `name` of the shape in another file.
+/// Returns storage in the dataset `name` of another file.
 H5::DSetCreatPropList in_dataset_of(const std::filesystem::path& other, const std::string& name,
                                     const std::vector<hsize_t>& shape);
 

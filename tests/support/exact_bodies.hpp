@@ -15,19 +15,21 @@ struct ExactEllipsoid {
     Vector3d mass;     ///< added masses along x, y, z
 };
 
-/// Lamb, Hydrodynamics, 6th ed., art. 114 and 115, with the integrals in Carlson's form to 30 digits.
+/// Returns the ellipsoids with known tensors: Lamb, Hydrodynamics, 6th ed., art. 114 and 115, with the
+/// integrals in Carlson's form to 30 digits.
 const std::vector<ExactEllipsoid>& exact_ellipsoids();
 
-/// That of any semi-axes, at least two of them different, by the same formulas with the integrals done
-/// numerically, to about 1e-10.
+/// Returns the ellipsoid of any semi-axes, at least two of them different, by the same formulas with the
+/// integrals computed numerically, to about 1e-10.
 ExactEllipsoid exact_ellipsoid(const Vector3d& semi_axes);
 
-/// The one with the name. The name must be known.
+/// Returns the ellipsoid with the name, which must be known.
 const ExactEllipsoid& exact_ellipsoid(const std::string& name);
 
 Matrix6d exact_tensor(const ExactEllipsoid& body);
 
-/// Volume, centroid and second moments are exact; the surface area is that of a fine mesh.
+/// Returns the moments of an ellipsoid: volume, centroid and second moments are exact; the surface area is
+/// that of a fine mesh.
 VolumeMoments exact_moments(const ExactEllipsoid& body);
 
 /// The Kirchhoff tensor of the cube with edges of length 1, extrapolated from the hypersingular method on

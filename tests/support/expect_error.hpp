@@ -8,7 +8,7 @@
 
 namespace samara::test {
 
-/// The text of the Error that `call` throws; empty, with a failed test, where it throws none.
+/// Returns the text of the Error that `call` throws; empty, with a failed test, where it throws none.
 template <typename Call>
 std::string error_of(const Call& call) {
     try {

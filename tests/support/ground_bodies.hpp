@@ -6,21 +6,21 @@
 
 namespace samara::test {
 
-/// A uniform body of the surface with its Kirchhoff tensor; the drag coefficient of loads by coefficients
-/// is 1.2.
+/// Returns a uniform body of the surface with its Kirchhoff tensor; the drag coefficient of loads by
+/// coefficients is 1.2.
 ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& fluid,
                           Loads loads = Loads::coefficients);
 
-/// A disc about the origin, its axis along z, its rim a polygon of 96 sides.
+/// Returns a disc about the origin, its axis along z, its rim a polygon of 96 sides.
 Surface disc(double radius, double thickness);
 
-/// A start above the ground: at rest, its lowest point `drop` (m) above the height 0.
+/// Returns a start above the ground: at rest, its lowest point `drop` (m) above the height 0.
 BodyState above_ground(const ImmersedBody& body, const Quaterniond& orientation, double drop);
 
-/// The height (m) of the body's lowest contact point.
+/// Returns the height (m) of the body's lowest contact point.
 double lowest_point(const ImmersedBody& body, const BodyState& state);
 
-/// Steps for `duration` (s) without noise.
+/// Returns the state after `duration` (s) of steps without noise.
 BodyState flown(const ImmersedBody& body, const Surroundings& surroundings, BodyState state, double duration,
                 double time_step);
 

@@ -28,15 +28,15 @@ Body paper_sheet();
 ImmersedBody immersed(const Body& body, double density, const Fluid& fluid, Loads loads = Loads::table,
                       const Vector3d& offset = Vector3d::Zero());
 
-/// A body and the words for it in tables.
+/// A body and its name in tables.
 struct NamedBody {
     std::string name;
     ImmersedBody body;
 };
 
-/// Five that differ in what is hard about them: a rubber ellipsoid (1:2:4 cm) in water, a paper sheet in air,
-/// a bubble (an ellipsoid, 2:3:4 mm), a neutral ellipsoid and a copper coin (an ellipsoid, 1:12.5:12.5 mm) in
-/// water. Sizes are semi-axes.
+/// Returns five bodies with different difficulties: a rubber ellipsoid (1:2:4 cm) in water, a paper sheet in
+/// air, a bubble (an ellipsoid, 2:3:4 mm), a neutral ellipsoid and a copper coin (an ellipsoid, 1:12.5:12.5
+/// mm) in water. Sizes are semi-axes.
 std::vector<NamedBody> five_bodies(Loads loads);
 
 }  // namespace samara::test

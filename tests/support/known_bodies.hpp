@@ -14,9 +14,9 @@ Body rubber_ellipsoid();
 /// A sphere of the radius (m) with its exact Kirchhoff tensor: half the displaced fluid's mass.
 Body exact_sphere(double radius);
 
-/// Tables that look like those of a blunt body: drag that differs along the axes, a lift, a moment that takes
-/// away half the Kirchhoff moment of `body`, and a moment along the force. Two Reynolds numbers, 1e3 and 1e5,
-/// the second 20 % lower.
+/// Returns tables similar to those of a blunt body: drag that differs along the axes, a lift, a moment that
+/// takes away half the Kirchhoff moment of `body`, and a moment along the force. Two Reynolds numbers, 1e3
+/// and 1e5, the second 20 % lower.
 LoadTables blunt_tables(const Body& body, int subdivisions);
 
 /// A body of uniform density in water with table loads, no noise.
@@ -25,8 +25,9 @@ SceneBody scene_body(double density);
 /// The rubber ellipsoid with blunt_tables, in water at density 1200, centre of mass moved by `offset` (m).
 ImmersedBody blunt_ellipsoid(const Vector3d& offset = Vector3d::Zero());
 
-/// The rubber ellipsoid with a coupling of turning and moving in its Kirchhoff tensor, blunt_tables, and full
-/// tensors as dynamic coefficients of all kinds: no term of the loads vanishes or is aligned with another.
+/// Returns the rubber ellipsoid with a coupling of rotation and translation in its Kirchhoff tensor,
+/// blunt_tables, and full tensors as all dynamic coefficients: no term of the loads vanishes or is aligned
+/// with another.
 Body lopsided_shape();
 
 /// A body with all its lengths times `size`, as a file of that size would have it. For bodies without
@@ -43,8 +44,8 @@ ImmersedBody ideal_ellipsoid();
 /// bilinear maps have, and the centre of mass off the centroid.
 ImmersedBody smooth_ellipsoid();
 
-/// A state with different numbers everywhere: speeds of the order of `speed` (m/s), turning rates of `rate`
-/// (rad/s).
+/// Returns a state with different numbers everywhere: speeds of the order of `speed` (m/s), angular
+/// velocities of `rate` (rad/s).
 BodyState tumbling_state(double speed, double rate);
 
 }  // namespace samara::test

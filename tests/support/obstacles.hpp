@@ -8,10 +8,10 @@ namespace samara::test {
 /// A rectangle of two triangles about the origin in the plane z = 0: an open sheet.
 Surface sheet(double length, double width);
 
-/// The same of 2 n^2 triangles.
+/// Returns a rectangle of 2 n^2 triangles about the origin in the plane z = 0: an open sheet.
 Surface sheet_of_many(double length, double width, int n);
 
-/// An obstacle that stands still.
+/// Returns an obstacle that stands still.
 Obstacle obstacle(const Surface& surface, const ObstaclePlace& place = {}, double friction = 0.5);
 
 /// Surroundings with these obstacles, without ground, and with the usual gravity.

@@ -4,8 +4,8 @@
 
 namespace samara::test {
 
-/// A sheet of two quads in the plane z = 0, each with a material of its own and UVs that meet in a seam, as
-/// an .obj file; the second counts its corners back from the last.
+/// A sheet of two quads in the plane z = 0, each with a material of its own and UVs that share a seam, as an
+/// .obj file; the second counts its corners back from the last.
 inline constexpr const char* painted_obj =
     "mtllib leaf.mtl\n"
     "v -0.04 -0.01 0\nv 0 -0.01 0\nv 0.04 -0.01 0\nv -0.04 0.01 0\nv 0 0.01 0\nv 0.04 0.01 0\n"
@@ -17,7 +17,7 @@ inline constexpr const char* painted_obj =
 inline constexpr const char* painted_mtl =
     "newmtl leaf_front\nKd 0.1 0.6 0.2\nmap_Kd -s 1 1 1 C:\\pictures\\leaf.png\nmap_d leaf.png\nnewmtl "
     "stalk\nKd 0.4 0.2 0.1\nd 0.5\nnewmtl unused\nKd 1 1 1\n";
-/// Its image: one green pixel.
+/// Returns the image of painted_obj: one green pixel.
 inline std::string painted_png() {
     constexpr unsigned char bytes[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d,
                                        0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01,

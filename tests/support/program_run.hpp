@@ -9,7 +9,7 @@
 
 namespace samara::test {
 
-/// What a program left behind.
+/// The result of a program.
 struct ProgramRun {
     int status = 0;
     std::string output;  ///< standard output
@@ -22,7 +22,7 @@ struct ProgramRun {
 ProgramRun run_program_in(const TemporaryFolder& folder, const std::vector<std::string>& words,
                           const std::string& environment = "");
 
-/// One line that ends with a line break, as every refusal must be.
+/// Returns whether the text is one line that ends with a line break, as every error message must be.
 bool is_one_line(const std::string& text);
 
 }  // namespace samara::test

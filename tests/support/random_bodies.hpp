@@ -7,30 +7,30 @@
 
 namespace samara::test {
 
-/// Bodies as no shape would give them, to search for faults: any positive definite added mass with coupling,
-/// densities from a thousandth to a billion times water's, the centre of mass up to two body lengths away,
-/// tables that jump from node to node by up to a hundred times (some with drag against the motion that
-/// interpolation turns into thrust), coefficients, or no loads;
-/// dynamic coefficients of any size and sign, drags positive semidefinite.
+/// Random bodies that no shape would give, to search for errors: any positive definite added mass with
+/// coupling, densities from a thousandth to a billion times water's, the centre of mass up to two body
+/// lengths away, tables that jump from node to node by up to a hundred times (some with drag against the
+/// motion that interpolation turns into thrust), coefficients, or no loads; dynamic coefficients of any size
+/// and sign, drags positive semidefinite.
 class RandomBodies {
   public:
     explicit RandomBodies(unsigned seed) : generator_(seed), wakes_(seed) {}
 
     ImmersedBody body();
-    /// Speeds from 1e-4 to 1e3 m/s and rad/s, any orientation, any wake.
+    /// Returns a state with speeds from 1e-4 to 1e3 m/s and rad/s, any orientation, any wake.
     BodyState state();
-    /// Logarithmically even between the bounds.
+    /// Returns a number that is logarithmically uniform between the bounds.
     double magnitude(double lowest, double highest);
 
   private:
     double uniform(double lowest, double highest);
     Vector3d vector();
-    /// A A^T of a random matrix, between the condition numbers 1 and about 1e4.
+    /// Returns A A^T of a random matrix, between the condition numbers 1 and about 1e4.
     template <int Size>
     Eigen::Matrix<double, Size, Size> positive_definite();
-    /// Of rank zero, one or three.
+    /// Returns a positive semidefinite matrix of rank zero, one or three.
     Matrix3d semidefinite(double scale);
-    /// Zero or, as a rule, indefinite.
+    /// Returns a symmetric matrix that is zero or, as a rule, indefinite.
     Matrix3d symmetric(double scale);
     DynamicCoefficients coefficients(double size);
     LoadTables tables(double length);

@@ -70,17 +70,17 @@ EquationsOfMotion::EquationsOfMotion(const ImmersedBody& body, const Vector3d& g
 Vector6d EquationsOfMotion::load(const Vector6d& velocity, const Matrix3d& to_world,
                                  const WakeShares& shares) const noexcept {
     const Vector6d of_centroid = body_->to_centroid * velocity;
-    const Vector3d seen_rotation = to_world.transpose() * sampled_turbulence_.angular_velocity;
-    const LoadMatrices loads = load_matrices(*body_, of_centroid, seen_rotation, Vector3d::Zero(), shares);
-    return loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid;
+    const Vector3d sampled_rotation = to_world.transpose() * sampled_turbulence_.angular_velocity;
+    const LoadMatrices loads = load_matrices(*body_, of_centroid, sampled_rotation, Vector3d::Zero(), shares);
+    return loads.relative.leftCols<3>() * sampled_rotation - loads.whole * of_centroid;
 }
 
 MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept {
     const Vector3d omega = motion.head<3>();
     const Matrix3d to_world = homogeneous_rotation(motion.segment<4>(6));
-    const Vector3d seen_velocity = to_world.transpose() * sampled_turbulence_.velocity;
+    const Vector3d sampled_velocity = to_world.transpose() * sampled_turbulence_.velocity;
     Vector6d relative = motion.head<6>();
-    relative.tail<3>() -= seen_velocity;
+    relative.tail<3>() -= sampled_velocity;
     const Vector6d momentum = body_->inertia * relative;
     const Vector3d angular = momentum.head<3>();
     const Vector3d linear = momentum.tail<3>();
@@ -98,7 +98,7 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
 
     Vector6d acceleration = mobility_ * momentum_rate;
     acceleration.tail<3>() -=
-        omega.cross(seen_velocity);  // the sampled turbulence turns past the body's axes
+        omega.cross(sampled_velocity);  // the sampled turbulence rotates relative to the body's axes
     MotionVector result;
     const Vector6d of_centroid = body_->to_centroid * relative;
     const auto [formed, heading] = wake_of(motion);
@@ -112,9 +112,9 @@ MotionVector EquationsOfMotion::rate(const MotionVector& motion) const noexcept 
 
 Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) const noexcept {
     const Matrix3d to_world = homogeneous_rotation(motion.segment<4>(6));
-    const Vector3d seen_velocity = to_world.transpose() * sampled_turbulence_.velocity;
+    const Vector3d sampled_velocity = to_world.transpose() * sampled_turbulence_.velocity;
     Vector6d relative = motion.head<6>();
-    relative.tail<3>() -= seen_velocity;
+    relative.tail<3>() -= sampled_velocity;
     const Vector6d momentum = body_->inertia * relative;
     const Matrix3d angular = skew(momentum.head<3>());
     const Matrix3d linear = skew(momentum.tail<3>());
@@ -142,7 +142,7 @@ Matrix6d EquationsOfMotion::acceleration_gradient(const MotionVector& motion) co
         gradient += body_->to_centroid.transpose() * by_relative_velocity;
     }
     gradient = mobility_ * gradient;
-    gradient.bottomLeftCorner<3, 3>() += skew(seen_velocity);
+    gradient.bottomLeftCorner<3, 3>() += skew(sampled_velocity);
     return gradient;
 }
 

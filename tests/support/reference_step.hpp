@@ -1,4 +1,4 @@
-// What tests and benchmarks hold steps against: the same equations, solved to rounding.
+// The reference of tests and benchmarks for steps: the same equations, solved to rounding.
 #pragma once
 
 #include "samara/core/base/linear_algebra.hpp"
@@ -12,7 +12,7 @@ namespace samara {
 /// The matrix D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms are -D u: u holds
 /// the body's angular velocity and the velocity of its centroid relative to the fluid (rad/s, m/s; body
 /// axes), the load moment about the centroid and force (N m, N). D depends on u; its symmetric part is
-/// positive semidefinite, so the loads never make energy in still fluid. docs/theory, "Loads of a moving
+/// positive semidefinite, so the loads never add energy in still fluid. docs/theory, "Loads of a moving
 /// body". Never throws.
 Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 
@@ -24,9 +24,8 @@ MotionVector motion_vector(const BodyState& state) noexcept;
 /// The state with these motions, its quaternion made a unit one; `sampled_turbulence` is passed on.
 BodyState body_state(const MotionVector& motion, const SampledTurbulence& sampled_turbulence) noexcept;
 
-/// The body's equations as ordinary differential equations, for integrators that know nothing of bodies:
-/// those that implicit_step solves, with gravity and the sampled turbulence held (docs/theory, "The equations
-/// that are solved").
+/// The body's equations as ordinary differential equations, for general integrators: those that implicit_step
+/// solves, with gravity and the sampled turbulence held (docs/theory, "The equations that are solved").
 ///
 /// R(q) is the homogeneous quadratic form of q, also where |q| is not 1 inside a step. Then u K u / 2, |p|^2,
 /// l . p and |q|^2 without loads, and with gravity the total energy, are quadratic in the MotionVector and
@@ -39,8 +38,8 @@ class EquationsOfMotion {
 
     [[nodiscard]] MotionVector rate(const MotionVector& motion) const noexcept;
 
-    /// How the acceleration changes with the velocity, du'/du (6x6): exact in the Kirchhoff terms, by
-    /// differences in the loads.
+    /// Returns du'/du (6x6), the derivative of the acceleration with respect to the velocity: exact in the
+    /// Kirchhoff terms, by differences in the loads.
     [[nodiscard]] Matrix6d acceleration_gradient(const MotionVector& motion) const noexcept;
 
   private:
@@ -55,10 +54,10 @@ class EquationsOfMotion {
     SampledTurbulence sampled_turbulence_;
 };
 
-/// What a step of the reference integrator came to.
+/// The result of a step of the reference integrator.
 struct ReferenceResult {
     BodyState state;
-    int parts = 1;          ///< equal or unequal halves of halves of the step that were taken one by one
+    int parts = 1;          ///< number of substeps, equal or unequal, that were taken
     bool converged = true;  ///< false: somewhere even the shortest part's equations were not solved, and
                             ///< implicit_step took that part
 };
@@ -76,9 +75,9 @@ inline constexpr int reference_halvings = 10;
 ReferenceResult reference_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
                                const BodyState& state) noexcept;
 
-/// The seen-fluid form: both velocities follow an Ornstein-Uhlenbeck process over the time step (s) by its
-/// exact update, with the rate a = 3/4 C_k epsilon/k and the variance 2 k/3 of each component of the
-/// velocity, and that over L^2 of the rotation. docs/theory, "Langevin".
+/// Advances the sampled turbulence: both velocities follow an Ornstein-Uhlenbeck process over the time step
+/// (s) by its exact update, with the rate a = 3/4 C_k epsilon/k and the variance 2 k/3 of each component of
+/// the velocity, and that over L^2 of the rotation. docs/theory, "Langevin".
 SampledTurbulence advance_sampled_turbulence(const ImmersedBody& body, const TurbulenceLevel& level,
                                              const SampledTurbulence& seen, double time_step,
                                              const Noise& noise, std::uint64_t step) noexcept;
@@ -90,7 +89,7 @@ Vector6d advance_body_velocity(const ImmersedBody& body, const TurbulenceLevel& 
                                const Vector6d& velocity, double time_step, const Noise& noise,
                                std::uint64_t step) noexcept;
 
-/// u K u / 2 (J): the kinetic energy of body and fluid.
+/// Returns u K u / 2 (J): the kinetic energy of body and fluid.
 double kinetic_energy(const ImmersedBody& body, const BodyState& state) noexcept;
 
 }  // namespace samara

@@ -8,12 +8,12 @@ namespace samara::test {
 struct StabilityRow {
     std::string subject;  ///< the case, in words
     std::string step;     ///< the time step, in words
-    std::string checked;  ///< what the figure measures
-    double bound;         ///< the figure must not be above it
+    std::string checked;  ///< what the metric measures
+    double bound;         ///< the metric must not be above it
     double metric;
 };
 
-/// Expects the figure to be a number not above the bound, and records the line with the running test, from
+/// Expects the metric to be a number not above the bound, and records the line with the running test, from
 /// where docs/studies/stability/stability_table.py takes it. To be called from the test's own thread.
 void expect_row(const StabilityRow& row);
 

@@ -18,7 +18,7 @@ Surface curved_ellipsoid(const Vector3d& semi_axes, int level);
 /// The box with the edge lengths (m) about the origin, each face cut into 2 n^2 triangles.
 Surface box(const Vector3d& edges, int n);
 
-/// The surface after x -> map x + shift; a reflection also turns the triangles, so that they stay outward.
+/// The surface after x -> map x + shift; a reflection also reverses the triangles, so that they stay outward.
 Surface mapped(const Surface& surface, const Matrix3d& map, const Vector3d& shift = Vector3d::Zero());
 
 /// The surfaces as one: a body of several closed parts.

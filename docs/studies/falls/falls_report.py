@@ -66,7 +66,7 @@ SCENES = {
 OF_A_RANGE = {"disc-light": "disc-range", "disc-heavy": "disc-range", "ellipsoid-tilted": "ellipsoid-range",
               "ellipsoid-compound": "ellipsoid-range", "ellipsoid-edgewise": "ellipsoid-range",
               "ellipsoid-heavy": "ellipsoid-range"}
-TERMS = ("transport", "turning transport", "drag in motion", "drag in spin", "rotational drag",
+TERMS = ("transport", "rotational transport", "drag in motion", "drag in spin", "rotational drag",
          "rotational drag in spin", "unsteady factor")
 # As users fly them, with noise; and without.
 RUNS = {"on": 20, "off": 1}

@@ -12,8 +12,8 @@
 
 #include "samara/analysis/metrics/fall_metrics.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/laminar_flow.hpp"
 #include "samara/core/dynamics/dynamic_coefficients.hpp"
+#include "samara/core/physics/fluid.hpp"
 
 namespace samara {
 namespace {

@@ -13,7 +13,7 @@
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/kernel/wake_noise.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/core/simulation/world_pose.hpp"
 #include "samara/scene/scene_simulation.hpp"

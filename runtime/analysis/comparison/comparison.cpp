@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "samara/analysis/comparison/reference_uncertainty.hpp"
-#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface.hpp"
 #include "samara/motion/inclination.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/analysis/metrics/description.hpp"
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

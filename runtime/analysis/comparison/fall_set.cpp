@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/angles.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/formats/json_text.hpp"
 
 namespace samara {

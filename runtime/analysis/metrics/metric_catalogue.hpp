@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "samara/analysis/metrics/estimate.hpp"
-#include "samara/core/base/angles.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/motion/measures.hpp"
 
 namespace samara {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {

@@ -22,7 +22,7 @@
 
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/nearest_word.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"

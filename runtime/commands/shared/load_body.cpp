@@ -11,10 +11,9 @@
 
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/files/folders.hpp"
 #include "samara/core/files/input_file.hpp"
-#include "samara/core/files/temporary_folder.hpp"
 
 namespace samara {
 namespace {

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 
 namespace samara {
 namespace {

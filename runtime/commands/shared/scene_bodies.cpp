@@ -10,7 +10,6 @@
 #include "samara/commands/shared/body_cache.hpp"
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/labelled.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/input_file.hpp"

@@ -14,22 +14,24 @@
 
 namespace samara {
 
-/// A tree over boxes, of which each level halves them along the axis on which their places differ most.
+/// A bounding volume tree. Each level halves the boxes along the axis on which their places differ most.
 class BoxTree {
   public:
     using Box = Eigen::AlignedBox3d;
-    /// A box around those of a branch or a leaf.
+    /// The box around all boxes of a branch or a leaf.
     struct Node {
         Box box;
-        std::uint32_t first = 0;  ///< of a leaf: where its boxes begin in the order
+        std::uint32_t first = 0;  ///< of a leaf: the first of its boxes in the order
         std::uint32_t count = 0;  ///< of a leaf's boxes; 0: a branch
         std::uint32_t right = 0;  ///< of a branch: its second child; the first follows it
     };
-    /// Nodes that wait while a tree of 2^32 boxes is gone through, with one for each level.
+    /// The most nodes that wait during a traversal of a tree of 2^32 boxes: one for each level, and room to
+    /// spare.
     static constexpr std::size_t most_waiting = 64;
 
     BoxTree() = default;
-    /// `places`: a point of each box. `order` becomes the boxes' numbers as the leaves hold them.
+    /// Builds the tree. `places`: a point of each box. `order`: receives the boxes' numbers in the order of
+    /// the leaves.
     BoxTree(const std::vector<Box>& boxes, const std::vector<Vector3d>& places,
             std::vector<std::uint32_t>& order) {
         order.resize(boxes.size());
@@ -37,11 +39,11 @@ class BoxTree {
         if (!order.empty()) build(boxes, places, order, 0, static_cast<std::uint32_t>(order.size()));
     }
 
-    /// The first is the root; empty where there are no boxes.
+    /// Returns the nodes, the root first; empty where there are no boxes.
     [[nodiscard]] const std::vector<Node>& nodes() const noexcept { return nodes_; }
 
-    /// Calls `visit` with each place in the order that is of a leaf whose box meets `box`, until it returns
-    /// false. Never allocates.
+    /// Calls `visit` with the place in the order of each box whose leaf's box intersects `box`, until it
+    /// returns false. Never allocates.
     template <typename Visit>
     void visit_near(const Box& box, const Visit& visit) const {
         std::array<std::uint32_t, most_waiting> waiting;

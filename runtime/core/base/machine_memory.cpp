@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -17,7 +19,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number behind a key in a text of lines "KEY NUMBER", such as /proc/meminfo.
+/// Returns the number behind a key in a text of lines "KEY NUMBER", such as /proc/meminfo.
 std::optional<double> number_of(const std::filesystem::path& file, std::string_view key) {
     std::ifstream stream(file);
     for (std::string line; std::getline(stream, line, '\n');) {
@@ -29,7 +31,7 @@ std::optional<double> number_of(const std::filesystem::path& file, std::string_v
     return std::nullopt;
 }
 
-/// The number that a file holds alone; nothing where it is missing or says "max".
+/// Returns the number that a file holds alone; nothing where it is missing or says "max".
 std::optional<double> number_in(const std::filesystem::path& file) {
     std::ifstream stream(file);
     double number = 0.0;
@@ -44,7 +46,7 @@ double available_in_machine() {
     return kibibyte * (*available + number_of("/proc/meminfo", "SwapFree:").value_or(0.0));
 }
 
-/// What the process may take beyond the pages that it has.
+/// Returns the bytes that a resource limit leaves to a process that holds `pages` pages.
 double available_within(int resource, double pages) {
     rlimit limit = {};
     if (::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
@@ -61,11 +63,11 @@ double available_to_process() {
     return std::min(available_within(RLIMIT_AS, size), available_within(RLIMIT_DATA, data));
 }
 
-/// What each version of the controller calls its files.
+/// The names of the files of one version of the memory controller.
 struct Controller {
     const char* limit;
     const char* used;
-    const char* of_files;  ///< in memory.stat
+    const char* of_files;  ///< key in memory.stat: pages of files
 };
 
 double available_in(const std::filesystem::path& group, const Controller& controller) {
@@ -109,12 +111,34 @@ double available_memory() {
 }
 
 void require_memory(double bytes, const std::string& what, const std::string& remedy) {
-    constexpr double not_worth_a_look = 64e6;
-    if (bytes < not_worth_a_look) return;
+    constexpr double negligible = 64e6;
+    if (bytes < negligible) return;
     const double available = available_memory();
     if (bytes <= available) return;
     throw Error(fmt::format("{} takes {:.3g} GB of memory, and {:.3g} GB are free; {}", what, 1e-9 * bytes,
                             1e-9 * available, remedy));
 }
+
+template <typename Number>
+LargeArray<Number>::LargeArray(std::size_t count) {
+    if (count == 0) return;
+    if (count > std::numeric_limits<std::size_t>::max() / sizeof(Number)) throw std::bad_alloc();
+    const std::size_t bytes = count * sizeof(Number);
+    // Anonymous pages are zero and start at page boundaries.
+    void* place = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (place == MAP_FAILED) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+    madvise(place, bytes, MADV_HUGEPAGE);  // where the system rejects it the array is slower but correct
+#endif
+    numbers_ = std::unique_ptr<Number, Release>(static_cast<Number*>(place), Release{bytes});
+}
+
+template <typename Number>
+void LargeArray<Number>::Release::operator()(Number* numbers) const {
+    munmap(numbers, bytes);
+}
+
+template class LargeArray<float>;
+template class LargeArray<double>;
 
 }  // namespace samara

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 
@@ -37,15 +38,15 @@ Matrix6d about_point(const Matrix6d& tensor, const Vector3d& old_point, const Ve
 }
 
 Matrix6d in_rotated_axes(const Matrix6d& tensor, const Matrix3d& rotation) {
-    Matrix6d turn = Matrix6d::Zero();
-    turn.block<3, 3>(0, 0) = rotation;
-    turn.block<3, 3>(3, 3) = rotation;
-    return turn * tensor * turn.transpose();
+    Matrix6d to_new = Matrix6d::Zero();
+    to_new.block<3, 3>(0, 0) = rotation;
+    to_new.block<3, 3>(3, 3) = rotation;
+    return to_new * tensor * to_new.transpose();
 }
 
 double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor) {
-    // A surface that lies further out by d carries d times its area more fluid where it is blunt; a thin
-    // body, whose added mass is far above its volume, is told by its rim.
+    // A surface that lies further out by d carries fluid of d times its area where it is blunt. A thin body's
+    // added mass is far above its volume: its rim decides.
     const double carried = moments.volume + tensor.bottomRightCorner<3, 3>().trace() / 3.0;
     // Angular blocks grow with the fifth power of a length, the volume with the third.
     constexpr double of_volume = 5.0 / 3.0;
@@ -64,6 +65,19 @@ MassProperties mass_properties(const Body& body, const MassSpecification& mass) 
     result.center_of_mass = mass.center_of_mass.value_or(moments.centroid);
     result.inertia = mass.inertia.value_or(uniform_inertia(moments, result.mass / moments.volume));
     return result;
+}
+
+Vector3d principal_extents(const Body& body) {
+    const Matrix3d axes = principal_axes(body.moments);
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vector3d lowest = Vector3d::Constant(infinity);
+    Vector3d highest = -lowest;
+    for (const Vector3d& vertex : body.surface.vertices) {
+        const Vector3d place = axes.transpose() * vertex;
+        lowest = lowest.cwiseMin(place);
+        highest = highest.cwiseMax(place);
+    }
+    return highest - lowest;
 }
 
 }  // namespace samara

@@ -5,25 +5,27 @@
 #include <numbers>
 #include <string_view>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/body/mass_check.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 
 namespace samara {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double least_radius = 1e-9;  // m
-constexpr double most_radius = 1e9;    // m
-constexpr double rounding = 1e-6;      // of what is exact but for rounding, over its size
-// A surface in flat triangles differs so far from the curved one, or from the body that it stands for.
+constexpr double least_radius = 1e-9;   // m
+constexpr double most_radius = 1e9;     // m
+constexpr double rounding = 1e-6;       // relative, of quantities that are exact but for rounding
+constexpr double mass_rounding = 1e-9;  // relative, of a mass that a user gives
+// The relative difference that is allowed between a surface in flat triangles and the curved one, or the body
+// that it stands for.
 constexpr double faceting = 0.25;
 // Coefficients lie around one. Stokes flow adds 24/Re.
 constexpr double most_coefficient = 1e3;
 
-/// The radius (m) of the ball about the point that holds all vertices.
+/// Returns the radius (m) of the ball about the point that holds all vertices.
 double radius_about(const Surface& surface, const Vector3d& point) {
     double square = 0.0;
     for (const Vector3d& vertex : surface.vertices) square = std::max(square, (vertex - point).squaredNorm());
@@ -55,8 +57,8 @@ std::string error_of_moments(const Body& body, double radius) {
     const Matrix3d& second = moments.second_moments;
     if (!is_symmetric(second)) return "/moments/second_moments is not symmetric";
     const Vector3d spread = eigenvalues_of(second) / volume;
-    // At most the volume at the radius; at least a cylinder as wide as the body and as long as its volume
-    // takes.
+    // The upper bound has the whole volume at the radius; the lower one is a cylinder as wide as the body and
+    // as long as its volume takes.
     const double length = volume / (pi * radius * radius);
     if (spread.maxCoeff() > (1.0 + faceting) * radius * radius ||
         spread.minCoeff() < (1.0 - faceting) * length * length / 12.0) {
@@ -144,7 +146,7 @@ std::string error_of(const LoadTables& tables, double surface_area) {
     return {};
 }
 
-/// Beyond what coefficients of a moving body are by themselves: their size.
+/// Checks the coefficients against the body's size, beyond what error_of(DynamicCoefficients) asks.
 std::string error_of(const DynamicCoefficients& coefficients, double radius) {
     const auto place = [](const char* name) {
         return fmt::format("/dynamic_coefficients/{} is too large for the body", name);
@@ -158,6 +160,38 @@ std::string error_of(const DynamicCoefficients& coefficients, double radius) {
         if (std::abs(coefficients.*number.member) > most_coefficient) return place(number.name);
     }
     return coefficients.half_length <= 2.0 * radius ? "" : place("half_length");
+}
+
+std::string error_of_number(const std::optional<double>& value, const char* name) {
+    if (!value || (*value > 0.0 && std::isfinite(*value))) return {};
+    return fmt::format("{} must be a positive number, not {}", name, *value);
+}
+
+std::string error_of_center(const Vector3d& center, const Surface& surface) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
+    const Vector3d slack = Vector3d::Constant(mass_rounding * box.diagonal().norm());
+    if (box.isEmpty() || Eigen::AlignedBox3d(box.min() - slack, box.max() + slack).contains(center))
+        return {};
+    return fmt::format(
+        "center_of_mass ({:.4g}, {:.4g}, {:.4g}) m must lie within the box of the shape, from ({:.4g}, "
+        "{:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m",
+        center.x(), center.y(), center.z(), box.min().x(), box.min().y(), box.min().z(), box.max().x(),
+        box.max().y(), box.max().z());
+}
+
+std::string error_of_inertia(const Matrix3d& inertia) {
+    if (!inertia.allFinite()) return "inertia must be of finite numbers";
+    if ((inertia - inertia.transpose()).norm() > mass_rounding * inertia.norm()) {
+        return "inertia must be symmetric";
+    }
+    const Vector3d principal = eigenvalues_of(inertia);
+    if (principal.x() > 0.0 && principal.z() <= (principal.x() + principal.y()) * (1.0 + mass_rounding))
+        return {};
+    return fmt::format(
+        "no body has the principal moments of inertia {:.4g}, {:.4g}, {:.4g}: each must be positive and at "
+        "most the sum of the others",
+        principal.x(), principal.y(), principal.z());
 }
 
 }  // namespace
@@ -183,6 +217,23 @@ std::string error_of(const Body& body) {
     if (error.empty() && body.tables) error = error_of(*body.tables, body.moments.surface_area);
     if (error.empty() && body.dynamic) error = error_of(body.dynamic->values, radius);
     if (error.empty() && body.mass) error = error_of(*body.mass, body.surface);
+    return error;
+}
+
+std::string error_of(const MassSpecification& mass) {
+    if (!mass.is_given()) return "density or mass must be given";
+    std::string error = error_of_number(mass.density, "density");
+    if (error.empty()) error = error_of_number(mass.mass, "mass");
+    if (error.empty() && mass.center_of_mass && !mass.center_of_mass->allFinite()) {
+        error = "center_of_mass must be of finite numbers";
+    }
+    if (error.empty() && mass.inertia) error = error_of_inertia(*mass.inertia);
+    return error;
+}
+
+std::string error_of(const MassSpecification& mass, const Surface& surface) {
+    std::string error = error_of(mass);
+    if (error.empty() && mass.center_of_mass) error = error_of_center(*mass.center_of_mass, surface);
     return error;
 }
 

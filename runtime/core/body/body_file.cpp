@@ -9,11 +9,10 @@
 #include "samara/core/base/version.hpp"
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/body_file_groups.hpp"
-#include "samara/core/body/surface_file.hpp"
+#include "samara/core/body/file_arrays.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
-#include "samara/core/files/row_major.hpp"
 
 namespace samara {
 namespace {
@@ -26,12 +25,12 @@ Vector3d as_vector(const std::vector<double>& values) {
 }
 
 Symmetry::Type symmetry_type(const Hdf5Reader& file) {
-    const std::string kind = file.text_attribute("/symmetry", "kind");
-    if (kind == "finite") return Symmetry::Type::finite;
-    if (kind == "axial") return Symmetry::Type::axial;
-    if (kind == "spherical") return Symmetry::Type::spherical;
+    const std::string type = file.text_attribute("/symmetry", "kind");
+    if (type == "finite") return Symmetry::Type::finite;
+    if (type == "axial") return Symmetry::Type::axial;
+    if (type == "spherical") return Symmetry::Type::spherical;
     throw Error(fmt::format("{}: the symmetry kind '{}' is unknown; make the file again",
-                            file.path().string(), kind));
+                            file.path().string(), type));
 }
 
 void write_symmetry(Hdf5Writer& file, const Symmetry& symmetry) {
@@ -203,7 +202,7 @@ LoadTables read_tables(const Hdf5Reader& file) {
     return tables;
 }
 
-/// More than the file will take (bytes). HDF5 crashes where it finds no room on the way.
+/// Returns an upper bound of the file's size (bytes). HDF5 crashes where it finds no room while it writes.
 std::uintmax_t expected_size(const Body& body) {
     constexpr std::uintmax_t texts_and_small_parts = 4U << 20U;
     std::uintmax_t bytes = body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/body/surface_file.hpp"
-#include "samara/core/files/row_major.hpp"
+#include "samara/core/body/file_arrays.hpp"
 
 namespace samara {
 namespace {
@@ -16,7 +15,8 @@ namespace {
 constexpr const char* coefficients_group = "/dynamic_coefficients";
 constexpr const char* lowest_density = "lowest_density";
 constexpr const char* highest_density = "highest_density";
-/// Of an angular momentum that the wake carried along, and of fluid that turned with the body.
+/// Tensors of earlier forms: an angular momentum that the wake carried along, and fluid that rotated with the
+/// body.
 constexpr const char* former_tensors[] = {"wake_by_velocity", "wake_by_turning", "entrained_inertia"};
 
 std::string place(const char* name, const char* name_end = "") {
@@ -27,7 +27,7 @@ Matrix3d read_tensor(const Hdf5Reader& file, const char* name, const char* name_
     return from_row_major<Matrix3d>(file.finite_doubles(place(name, name_end), {3, 3}));
 }
 
-/// The numbers that values and standard errors have in common.
+/// Reads the numbers that values and standard errors have in common.
 DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
     DynamicCoefficients numbers;
     for (const NumberOfMotion& number : numbers_of_motion) {
@@ -56,7 +56,7 @@ void write_numbers(Hdf5Writer& file, const DynamicCoefficients& numbers, const c
     }
 }
 
-/// Absent in files from before.
+/// Reads the densities of the falls; older files lack them.
 IdentifiedDensities read_densities(const Hdf5Reader& file) {
     if (!file.has_attribute(coefficients_group, lowest_density) &&
         !file.has_attribute(coefficients_group, highest_density))
@@ -70,7 +70,7 @@ bool are_sound(const IdentifiedDensities& densities) {
     return (lowest == 0.0 && highest == 0.0) || (lowest > 0.0 && lowest <= highest && std::isfinite(highest));
 }
 
-/// A standard error that is none; empty where all are.
+/// Returns what is wrong with a standard error; empty where nothing is.
 std::string error_of_errors(const DynamicCoefficients& errors) {
     for (const NumberOfMotion& number : numbers_of_motion) {
         const double error = errors.*number.member;
@@ -82,7 +82,7 @@ std::string error_of_errors(const DynamicCoefficients& errors) {
     return {};
 }
 
-/// Whether the coefficients hold terms that flights no longer have.
+/// Returns whether the coefficients hold terms that simulations no longer have.
 bool is_of_an_earlier_form(const Hdf5Reader& file) {
     if (file.has_attribute(coefficients_group, "force_transport")) return true;
     return std::any_of(std::begin(former_tensors), std::end(former_tensors), [&file](const char* name) {
@@ -106,8 +106,8 @@ void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& 
 IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
     if (is_of_an_earlier_form(file)) {
         throw Error(fmt::format(
-            "{}: {} is of an earlier form, which this version does not fly; bake the body again, or "
-            "remove the group to fly with defaults",
+            "{}: {} is of an earlier form, which this version cannot simulate; bake the body again, or "
+            "remove the group to use the defaults",
             file.path().string(), coefficients_group));
     }
     IdentifiedCoefficients coefficients{.values = read_numbers(file, ""),
@@ -116,7 +116,7 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
     coefficients.values.half_length = file.number_attribute(coefficients_group, "half_length");
     coefficients.values.origin = file.text_attribute(coefficients_group, "origin");
     const auto reject = [&](const std::string& what) {
-        throw Error(fmt::format("{}: {}/{}; put it right, or remove the group to fly with defaults",
+        throw Error(fmt::format("{}: {}/{}; put it right, or remove the group to use the defaults",
                                 file.path().string(), coefficients_group, what));
     };
     if (const std::string error = error_of(coefficients.values); !error.empty()) reject(error);

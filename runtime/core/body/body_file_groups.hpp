@@ -22,29 +22,32 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file);
 /// Writes the group /mass of a body file (docs/file-formats.md).
 void write_mass(Hdf5Writer& file, const MassSpecification& mass);
 
-/// Reads it. Throws Error where it holds both a density and a mass, or neither.
+/// Reads the group /mass of a body file. Throws Error where it holds both a density and a mass, or neither.
 MassSpecification read_mass(const Hdf5Reader& file);
 
-/// Writes /tables/planned and /tables/plan (docs/file-formats) where the region is not all directions.
+/// Writes /tables/planned and /tables/plan (docs/file-formats) where the region does not cover all
+/// directions.
 void write_planned_region(Hdf5Writer& file, const PlannedRegion& region);
 
-/// Reads them; all directions where they are absent. Throws Error where the map is of no sane size.
+/// Reads /tables/planned and /tables/plan; the region covers all directions where they are absent. Throws
+/// Error where the size of the map is invalid.
 PlannedRegion read_planned_region(const Hdf5Reader& file);
 
 /// Writes the group /surface_loads of a body file (docs/file-formats.md).
 void write_surface_loads(Hdf5Writer& file, const SurfaceLoads& loads);
 
-/// Whether the file holds it; an earlier form, of forces by direction, counts as none.
+/// Returns whether the file holds /surface_loads; an earlier form, of forces by direction, counts as none.
 bool has_surface_loads(const Hdf5Reader& file);
 
-/// Reads it. Throws Error where it is no surface, or has lengths or potentials that none has.
+/// Reads the group /surface_loads. Throws Error where it is no surface, or its lengths or potentials are
+/// impossible.
 SurfaceLoads read_surface_loads(const Hdf5Reader& file);
 
 /// Writes /tables/error_sources and /tables/left_out of a body file, where the tables have any.
 void write_table_errors(Hdf5Writer& file, const LoadTables& tables);
 
-/// Reads them into the tables; files without them leave both empty. Throws Error where a source is unknown
-/// or a value breaks a rule.
+/// Reads /tables/error_sources and /tables/left_out into the tables; both stay empty where the file lacks
+/// them. Throws Error where a source is unknown or a value breaks a rule.
 void read_table_errors(const Hdf5Reader& file, LoadTables& tables);
 
 }  // namespace samara

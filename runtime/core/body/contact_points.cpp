@@ -12,13 +12,13 @@ namespace samara {
 namespace {
 
 // An edge is sharp from this angle between the normals of its faces (rad): a prism of up to ten sides (0.63)
-// has edges, one of more is round.
+// has edges, one of more sides is round.
 constexpr double sharp = 0.6;
 // The width over which facets are smoothed, over the bounding radius, and so the most that a round side
 // stands off its place (docs/scene-file.md#ground). The facets of a sphere of 1280 triangles reach 0.4 %
 // inwards.
 constexpr double smoothing = 0.01;
-constexpr int directions = 512;         // in which corners are looked for: 9 degrees apart
+constexpr int directions = 512;         // the directions in which corners are sought: 9 degrees apart
 constexpr int subdivisions = 16;        // of the map of round points
 constexpr std::size_t enough = 20'000;  // vertices to smooth a side over
 
@@ -37,7 +37,7 @@ std::vector<double> vertex_areas(const Surface& surface) {
     return areas;
 }
 
-/// The vertices at the ends of sharp or open edges.
+/// Returns the vertices at the ends of sharp or open edges.
 std::vector<Vector3d> sharp_vertices(const Surface& surface, const Vector3d& origin) {
     std::vector<bool> is_sharp(surface.vertices.size(), false);
     const std::vector<EdgeUse> uses = edge_uses(surface);
@@ -72,15 +72,16 @@ Vector3d mean_of(const ContactPoints& points) {
     return sum / static_cast<double>(points.corners.size() + points.round.size());
 }
 
-/// Evenly spread over the sphere: a spiral whose turns are a golden angle apart.
+/// Returns a direction of a set that is evenly spread over the sphere: a spiral with the golden angle between
+/// neighbours.
 Vector3d spiral_direction(int index) {
     const double z = 1.0 - (2.0 * index + 1.0) / directions;
-    const double turn = index * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double angle = index * std::numbers::pi * (3.0 - std::sqrt(5.0));
     const double radius = std::sqrt(1.0 - z * z);
-    return {radius * std::cos(turn), radius * std::sin(turn), z};
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-/// Those of the points that reach farthest in some direction.
+/// Returns the points that reach farthest in some direction.
 std::vector<Vector3d> extreme_points(const std::vector<Vector3d>& points) {
     std::vector<std::size_t> chosen;
     if (points.empty()) return {};
@@ -99,7 +100,7 @@ std::vector<Vector3d> extreme_points(const std::vector<Vector3d>& points) {
     return extreme;
 }
 
-/// `most_corners` of the points, each the farthest from those before it.
+/// Returns `most_corners` of the points, each the farthest from those before it.
 std::vector<Vector3d> well_spread(const std::vector<Vector3d>& points) {
     if (points.size() <= most_corners) return points;
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
@@ -119,7 +120,7 @@ std::vector<Vector3d> well_spread(const std::vector<Vector3d>& points) {
     return spread;
 }
 
-/// `enough` of the vertices, evenly chosen where there are more.
+/// Returns `enough` of the vertices, evenly chosen where there are more.
 WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<double>& areas) {
     const std::size_t stride = 1 + vertices.size() / enough;
     const auto count = static_cast<Eigen::Index>((vertices.size() + stride - 1) / stride);
@@ -132,8 +133,8 @@ WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<
     return result;
 }
 
-/// The mean of the points near the farthest one, whose reaches along a direction are given, weighted by how
-/// near they are to it and by their area.
+/// Returns the mean of the points near the farthest one, weighted by how near they are to it and by their
+/// area. `reaches`: of the points along the direction.
 Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& reaches, double width) {
     constexpr double vanishing = 12.0;  // widths, at which the weight is 6e-6
     const double farthest = reaches.maxCoeff();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "samara/core/base/numbers.hpp"
+#include "samara/core/body/planned_region.hpp"
+#include "samara/core/body/table_errors.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
@@ -20,7 +23,7 @@ struct ReynoldsCell {
     double fraction;
 };
 
-/// The place of a Reynolds number between the table's, in log Re, held at both ends.
+/// Returns the place of a Reynolds number between the table's, in log Re, held at both ends.
 ReynoldsCell reynolds_cell(const std::vector<double>& reynolds_numbers, double reynolds_number) noexcept {
     const auto count = static_cast<int>(reynolds_numbers.size());
     if (count == 1 || !(reynolds_number > reynolds_numbers.front())) return {0, 0.0};
@@ -31,7 +34,7 @@ ReynoldsCell reynolds_cell(const std::vector<double>& reynolds_numbers, double r
             std::log(reynolds_number / *below) / std::log(*above / *below)};
 }
 
-/// Interpolates entries or errors of the tables.
+/// Interpolates entries or errors of the tables, bilinearly on the map and linearly in log Re.
 LoadEntry interpolated(const LoadTables& tables, const std::vector<LoadEntry>& entries,
                        const Vector3d& direction, double reynolds_number) noexcept {
     const OctahedralCell cell = octahedral_cell(tables.subdivisions, tables.axes.transpose() * direction);
@@ -45,13 +48,15 @@ LoadEntry interpolated(const LoadTables& tables, const std::vector<LoadEntry>& e
         const double weight = (up != 0 ? cell.row_fraction : 1.0 - cell.row_fraction) *
                               (right != 0 ? cell.column_fraction : 1.0 - cell.column_fraction) *
                               (later != 0 ? reynolds.fraction : 1.0 - reynolds.fraction);
-        if (weight == 0.0) continue;  // also keeps a table with one Reynolds number inside its bounds
+        if (weight == 0.0) continue;  // also keeps a table of one Reynolds number within its bounds
         add_weighted(result,
                      entries[tables.index(reynolds.index + later, cell.row + up, cell.column + right)],
                      weight);
     }
     return result;
 }
+
+constexpr const char* names[error_source_count] = {"tail", "symmetry", "mesh", "closure", "interpolation"};
 
 }  // namespace
 
@@ -82,6 +87,26 @@ LoadTables at_reynolds_number(const LoadTables& tables, double reynolds_number) 
 LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
                              double reynolds_number) noexcept {
     return interpolated(tables, tables.errors, direction, reynolds_number);
+}
+
+bool PlannedRegion::holds(const Vector3d& direction) const noexcept {
+    if (subdivisions == 0) return true;
+    const OctahedralCell cell = octahedral_cell(subdivisions, direction);
+    const int row = cell.row + (cell.row_fraction < 0.5 ? 0 : 1);
+    const int column = cell.column + (cell.column_fraction < 0.5 ? 0 : 1);
+    const std::size_t side = 2 * as_index(subdivisions) + 1;
+    return planned[as_index(row) * side + as_index(column)] != 0;
+}
+
+const char* name_of(ErrorSource source) {
+    return names[static_cast<std::size_t>(source)];
+}
+
+std::optional<ErrorSource> error_source(std::string_view name) {
+    for (std::size_t i = 0; i < error_source_count; ++i) {
+        if (name == names[i]) return static_cast<ErrorSource>(i);
+    }
+    return std::nullopt;
 }
 
 }  // namespace samara

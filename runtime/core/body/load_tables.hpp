@@ -9,17 +9,17 @@
 
 namespace samara {
 
-/// One entry of the tables: nondimensional, made with L = sqrt(S/pi), A = pi L^2/4 and U, the speed relative
+/// One entry of the tables, made nondimensional with L = sqrt(S/pi), A = pi L^2/4 and U, the speed relative
 /// to the fluid. Vectors are in body (shape) axes; moments are about the centroid of the volume.
 struct LoadEntry {
     Vector3d force = Vector3d::Zero();  ///< F / (rho U^2 A / 2)
-    Vector3d moment =
-        Vector3d::Zero();  ///< M / (rho U^2 A L / 2), the total moment of the fluid in a steady translation
+    /// M / (rho U^2 A L / 2), the total moment of the fluid in a steady translation
+    Vector3d moment = Vector3d::Zero();
     double turbulent_kinetic_energy = 0.0;  ///< k / U^2, mean over the shell of volume from 0.05 L to 0.25 L
     double dissipation_rate = 0.0;          ///< epsilon L / U^3, mean over the same shell
 };
 
-/// Standard errors of an entry's values, same scales: for the vectors one figure for each component.
+/// The standard errors of an entry's values, in the same units; of vectors, of each component.
 using LoadEntryError = LoadEntry;
 
 /// Load and turbulence tables over the direction d of the body's velocity relative to the fluid and the
@@ -33,21 +33,21 @@ struct LoadTables {
     int subdivisions = 1;                  ///< n: each edge of the octahedron is cut into n
     Matrix3d axes = Matrix3d::Identity();  ///< columns: the map's axes, in body axes
     std::vector<double> reynolds_numbers;  ///< ascending
-    /// Whether Stokes' resistance stands beside the entries at every Reynolds number; else it is added below
-    /// the first alone, and fades out there.
+    /// Whether Stokes' resistance is added to the entries at every Reynolds number; else it is added below
+    /// the first one alone, and fades out there.
     bool stokes_throughout = false;
-    std::vector<LoadEntry> entries;      ///< by index()
-    std::vector<LoadEntryError> errors;  ///< beside the entries; empty where unknown
+    std::vector<LoadEntry> entries;      ///< in the order of index()
+    std::vector<LoadEntryError> errors;  ///< of the entries, in their order; empty where unknown
     std::string quality;                 ///< of the bake: smoke, preview, ...
     std::string provenance;              ///< JSON text: one object for each solved case (docs/file-formats)
-    std::vector<ErrorShare> error_sources;  ///< that `errors` hold; empty where the file does not say
-    std::string
-        left_out;  ///< JSON: the cases that could not be solved (formats/left_out_cases.hpp); empty: none
-    PlannedRegion plan;  ///< what a bake for a scene was planned for
+    std::vector<ErrorShare> error_sources;  ///< the parts of `errors`; empty where the file does not say
+    /// JSON: the cases that could not be solved (formats/left_out_cases.hpp); empty: none
+    std::string left_out;
+    PlannedRegion plan;  ///< the directions that a bake for a scene was planned for
 
-    /// Nodes along each side of the octahedral map.
+    /// Returns the number of nodes along each side of the octahedral map.
     [[nodiscard]] int map_size() const { return 2 * subdivisions + 1; }
-    /// The place in `entries` of a node of the map at a Reynolds number, each counted from 0.
+    /// Returns the place in `entries` of a node of the map at a Reynolds number, each counted from 0.
     [[nodiscard]] std::size_t index(int reynolds, int row, int column) const {
         const auto size = static_cast<std::size_t>(map_size());
         return (static_cast<std::size_t>(reynolds) * size + static_cast<std::size_t>(row)) * size +
@@ -55,16 +55,16 @@ struct LoadTables {
     }
 };
 
-/// The entry at the unit direction (body axes) and the Reynolds number: bilinear on the map, linear in log
-/// Re, held at the first and last Reynolds number. Never throws; tables must hold at least one Reynolds
-/// number.
+/// Returns the entry at the unit direction (body axes) and the Reynolds number: bilinear on the map, linear
+/// in log Re, held at the first and last Reynolds number. Never throws; the tables must hold at least one
+/// Reynolds number.
 LoadEntry look_up(const LoadTables& tables, const Vector3d& direction, double reynolds_number) noexcept;
 
-/// The tables as a bake of that one Reynolds number would have made them: their values there. A number beyond
-/// the tables' is moved to their edge.
+/// Returns tables of one Reynolds number, with the values of `tables` there. A number beyond the tables' is
+/// moved to their edge.
 LoadTables at_reynolds_number(const LoadTables& tables, double reynolds_number);
 
-/// The standard errors of look_up's values, themselves looked up in the same way.
+/// Returns the standard errors of look_up()'s values, interpolated in the same way.
 LoadEntryError look_up_error(const LoadTables& tables, const Vector3d& direction,
                              double reynolds_number) noexcept;
 

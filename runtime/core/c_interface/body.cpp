@@ -9,7 +9,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/objects.hpp"
-#include "samara/core/files/confined_check.hpp"
+#include "samara/core/files/confined_process.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "samara/core/base/printable.hpp"
+#include "samara/core/base/text.hpp"
 
 namespace samara {
 

@@ -12,7 +12,7 @@
 
 namespace samara {
 
-/// What goes wrong behind the C interface: an Error with the status that the caller gets.
+/// An error behind the C interface: an Error with the status that the caller gets.
 class StatusError : public Error {
   public:
     StatusError(samara_status status, const std::string& message) : Error(message), status_(status) {}
@@ -26,20 +26,21 @@ class StatusError : public Error {
 /// within a character.
 void copy_text(std::string_view text, char* buffer, std::size_t size) noexcept;
 
-/// The same for a text that may hold names from files, as printable() shows it; nothing where memory lacks.
+/// Copies a text that may hold names from files as copy_text() does, made printable(); an empty one where
+/// memory lacks.
 void copy_printable(std::string_view text, char* buffer, std::size_t size) noexcept;
 
-/// Throws Fault of SAMARA_INVALID_ARGUMENT where the pointer is null.
+/// Throws StatusError of SAMARA_INVALID_ARGUMENT where the pointer is null.
 void require(const void* pointer, const char* name);
 
-/// HDF5 is often built without its own lock. The one thing that all objects share.
+/// Returns the lock of HDF5, which is often built without its own. All objects share it.
 std::mutex& hdf5_mutex();
 
-/// What the caller gets for a fault of a flight.
+/// Returns the status for an error of a simulation.
 samara_status status_of(SimulationError::Reason reason) noexcept;
 
-/// Runs the body of a C function: nothing that it throws leaves, and the caller's buffer gets its text (empty
-/// where all went well). An Error that is no Fault gives `otherwise`.
+/// Runs the body of a C function and returns its status: no exception leaves, and the caller's buffer gets
+/// its text (empty where there is none). An Error that is no StatusError gives `otherwise`.
 template <typename Work>
 samara_status guarded(char* error, std::size_t error_size, const Work& work,
                       samara_status otherwise = SAMARA_INVALID_ARGUMENT) noexcept {

@@ -1,4 +1,4 @@
-// What game engines and robotics simulators ask for beyond the motion.
+// Functions that game engines and robotics simulators need beyond the motion.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "samara.h"
-#include "samara/core/c_interface/bodies.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
+#include "samara/core/c_interface/objects.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ using samara::Simulation;
 using samara::Vector3d;
 using samara::Wrench;
 
-/// The flight of a simulation that runs, one body of which is looked at or pushed.
+/// Returns the simulation behind the handle. Throws StatusError where it has stopped or has no such body.
 template <typename Simulation>
 auto& simulation_of(Simulation* simulation, std::size_t body) {
     samara::require_bodies(simulation, 0, 0);
@@ -31,7 +31,8 @@ auto& simulation_of(Simulation* simulation, std::size_t body) {
     return core;
 }
 
-/// The same of a body that has not been removed.
+/// Returns the simulation behind the handle as running() does. Throws StatusError where the body has been
+/// removed.
 template <typename Simulation>
 auto& simulation_with(Simulation* simulation, std::size_t body) {
     auto& core = simulation_of(simulation, body);
@@ -47,7 +48,7 @@ Vector3d three(const double* values, const char* name) {
     return samara::vector(copied, name);
 }
 
-/// A force, or impulse, at a point (null: the centre of mass) of the world.
+/// Returns the wrench of a force, or impulse, at a point (m, world; null: the centre of mass).
 Wrench wrench_at(const Simulation& core, std::size_t body, const double* force, const char* name,
                  const double* point) {
     Wrench wrench{.force = three(force, name), .moment = Vector3d::Zero()};

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "samara/core/base/number_limits.hpp"
-#include "samara/core/base/plain_name.hpp"
+#include "samara/core/base/numbers.hpp"
+#include "samara/core/base/text.hpp"
 
 namespace samara {
 

@@ -12,20 +12,21 @@
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/physics/broken_rule.hpp"
 
-// Members of a caller's structs, checked. Each throws Fault of SAMARA_INVALID_ARGUMENT that names the member.
+// Checks of the members of a caller's structs. Each throws StatusError of SAMARA_INVALID_ARGUMENT that names
+// the member.
 
 namespace samara {
 
-/// Throws that fault: the member, and why it is refused.
+/// Throws StatusError of SAMARA_INVALID_ARGUMENT: the member, and why it is rejected.
 [[noreturn]] void reject(const std::string& member, const std::string& why);
 
-/// Throws that fault where a rule is broken.
+/// Throws StatusError of SAMARA_INVALID_ARGUMENT where a rule is broken.
 void require_rules(const std::optional<BrokenRule>& broken);
 
-/// The number, where it is finite and not beyond any unit's.
+/// Returns the number, which must be finite and within largest_number.
 double finite(double value, const char* member);
 
-/// Three finite numbers.
+/// Returns three finite numbers as a vector.
 Vector3d vector(const double (&values)[3], const char* member);
 
 /// Copies three numbers into a caller's struct.
@@ -33,20 +34,20 @@ inline void copy(const Vector3d& from, double (&to)[3]) {
     std::memcpy(to, from.data(), sizeof to);
 }
 
-/// A turn given as (w, x, y, z), made one of length one.
+/// Returns an orientation given as (w, x, y, z), normalised.
 Quaterniond orientation(const double (&values)[4], const char* member);
 
-/// A name that can stand in files of all kinds.
+/// Returns a name that may stand in files of all formats.
 std::string plain_name(const char* name, const char* member);
 
-/// One of the values of an enumeration from 0 to `last`.
+/// Returns one of the values of an enumeration from 0 to `last`.
 template <typename Choice>
 Choice choice(std::int32_t value, std::int32_t last, const char* member) {
     if (value < 0 || value > last) reject(member, fmt::format("is {}, which names nothing", value));
     return static_cast<Choice>(value);
 }
 
-/// The caller's struct as far as it goes, over the defaults of what it lacks.
+/// Returns the caller's struct, with defaults for the members that it lacks.
 template <typename Struct>
 Struct known_part(const Struct& given, Struct defaults, std::size_t first_size, const char* name) {
     if (given.size < first_size || given.size > sizeof(Struct)) {
@@ -60,7 +61,7 @@ Struct known_part(const Struct& given, Struct defaults, std::size_t first_size, 
     return defaults;
 }
 
-/// Fills as much of a caller's struct as the caller knows.
+/// Fills the members of a caller's struct that the caller knows.
 template <typename Struct>
 void fill(Struct* target, std::size_t size, const Struct& defaults, const char* name) {
     require(target, name);

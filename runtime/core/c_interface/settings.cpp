@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/number_limits.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
 
@@ -15,7 +15,7 @@ namespace samara {
 namespace {
 
 constexpr int most_threads = 1024;
-// Up to the last member that version 1 had.
+// The size up to the last member of version 1.
 constexpr std::size_t first_settings_size = offsetof(samara_settings, ground) + sizeof(double);
 constexpr std::size_t first_group_size = offsetof(samara_body_group, langevin) + sizeof(std::int32_t);
 // The first member of a version lies where the struct of the one before ended, and not in its padding, which

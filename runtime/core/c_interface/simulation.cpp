@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "samara.h"
-#include "samara/core/base/number_limits.hpp"
-#include "samara/core/c_interface/bodies.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/c_interface/guard.hpp"
 #include "samara/core/c_interface/members.hpp"
 #include "samara/core/c_interface/objects.hpp"
@@ -23,7 +22,7 @@ using samara::require;
 using samara::StatusError;
 using samara::Vector3d;
 
-/// The stride in bytes of poses of those bodies.
+/// Returns the stride (bytes) of poses of those bodies.
 std::size_t checked_stride(const samara_simulation* simulation, std::size_t first, std::size_t count,
                            const samara_pose* poses, std::size_t stride) {
     return samara::checked_stride(simulation, first, count, poses, "poses", stride, sizeof(samara_pose),

@@ -21,7 +21,7 @@ using samara::known_part;
 using samara::require;
 using samara::StatusError;
 
-// Up to the last member that version 6 had.
+// The size up to the last member of version 6.
 constexpr std::size_t first_obstacle_size = offsetof(samara_obstacle, key_count) + sizeof(size_t);
 constexpr std::size_t most_triangles = 100'000'000;
 

@@ -12,15 +12,15 @@ namespace samara {
 /// 0.25 to 0.5 for dry wood on wood.
 inline constexpr double ground_friction = 0.5;
 
-/// A point of the body that a step may bring against something.
+/// A point of the body that may touch something within a step.
 struct NearPoint {
     Vector3d point;   ///< body axes, from the centre of mass (m)
-    Vector3d normal;  ///< body axes: out of what it may meet
+    Vector3d normal;  ///< body axes: outwards from what it may touch
     double gap;       ///< m, along the normal
     double friction;
-    int obstacle;                       ///< the number of the one that it may meet; -1: level ground
-    Vector3d surface_velocity;          ///< m/s, body axes: of what it may meet, relative to the ground
-    Vector3d surface_angular_velocity;  ///< rad/s, body axes: the same
+    int obstacle;                       ///< the number of the obstacle that it may touch; -1: level ground
+    Vector3d surface_velocity;          ///< m/s, body axes: of what it may touch, relative to the ground
+    Vector3d surface_angular_velocity;  ///< rad/s, body axes: of what it may touch
 
     [[nodiscard]] bool on_ground() const noexcept { return obstacle < 0; }
 };
@@ -30,10 +30,11 @@ struct NearPoint {
 /// more, those with the smallest gaps are kept. Never allocates.
 class ContactSet {
   public:
-    /// `to_world`: turns body axes to the world's.
+    /// `to_world`: rotates body axes to the world's.
     explicit ContactSet(const Matrix3d& to_world) noexcept : to_world_(to_world) {}
 
-    /// The body's points that lie within `margin` (m) of level ground, `height` (m) below its centre of mass.
+    /// Adds the body's points that lie within `margin` (m) of level ground, `height` (m) below its centre of
+    /// mass.
     void add_ground(const ContactPoints& points, double height, double margin) noexcept;
     void add(const NearPoint& near) noexcept;
 

@@ -5,7 +5,7 @@
 
 namespace samara {
 
-/// How the surface of an obstacle moves, in its own axes.
+/// The velocity of the surface of an obstacle, in its own axes.
 struct SurfaceMotion {
     Vector3d angular_velocity = Vector3d::Zero();  ///< rad/s
     Vector3d linear_velocity = Vector3d::Zero();   ///< m/s: of its origin
@@ -15,19 +15,19 @@ struct SurfaceMotion {
     }
 };
 
-/// Finds where a body's hull and the faces of one obstacle may meet within a step, each face by itself, in
-/// the obstacle's axes. Never allocates.
+/// Finds the points where a body's hull and the faces of one obstacle may touch within a step, each face by
+/// itself, in the obstacle's axes. Never allocates.
 class FaceContacts {
   public:
-    /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; `obstacle`: its number; what is found is
-    /// added to `near`.
+    /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; `obstacle`: its number. Points are added
+    /// to `near`.
     FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const SurfaceMotion& surface,
                  double time_step, double margin, double friction, int obstacle, ContactSet& near) noexcept;
 
-    /// Adds where the body may meet a face: its corners, and its lowest round point, that come to lie over
-    /// the face; the ends of what its lowest side covers of the face's sides; the nearest points where an
-    /// edge or a corner of the face faces it. What lies between two faces of one plane is neither. A face
-    /// that it would pass by, moving on as it does, is left out.
+    /// Adds the points where the body may touch a face: its corners, and its lowest round point, that come to
+    /// lie over the face; the ends of the parts of the face's sides under its lowest side; the nearest points
+    /// where an edge or a corner of the face faces it. An edge between two faces of one plane counts as
+    /// neither. A face that it would pass by at its present velocity is left out.
     void add(const ObstacleTriangle& triangle) noexcept;
 
   private:
@@ -37,7 +37,7 @@ class FaceContacts {
     bool add_crossings(const ObstacleTriangle& triangle, const Vector3d& normal, double plane) noexcept;
 
     PlacedHull hull_;
-    PlacedHull next_;  ///< where it would be after the step, as the obstacle sees it
+    PlacedHull next_;  ///< the place after the step at the present velocity, as the obstacle sees it
     Vector6d velocity_;
     SurfaceMotion surface_;
     double time_step_, margin_, friction_;

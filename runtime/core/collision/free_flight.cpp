@@ -6,9 +6,10 @@ namespace samara {
 namespace {
 
 constexpr int most_iterations = 12;
-constexpr double solved = 1e-9;  // last step, over the velocity, by energy: the next would be of its square
+// the last step relative to the velocity, by energy: the next would be of its square
+constexpr double solved = 1e-9;
 
-/// K u' of Kirchhoff's equations: (l x omega + p x v, p x omega).
+/// Returns K u' of Kirchhoff's equations: (l x omega + p x v, p x omega).
 Vector6d rate_of_momentum(const Vector6d& momentum, const Vector6d& velocity) {
     Vector6d rate;
     rate << momentum.head<3>().cross(velocity.head<3>()) + momentum.tail<3>().cross(velocity.tail<3>()),
@@ -16,7 +17,7 @@ Vector6d rate_of_momentum(const Vector6d& momentum, const Vector6d& velocity) {
     return rate;
 }
 
-/// How that changes with the velocity.
+/// Returns the derivative of rate_of_momentum() with respect to the velocity.
 Matrix6d gradient_of_rate(const Matrix6d& inertia, const Vector6d& momentum, const Vector6d& velocity) {
     Matrix6d by_velocity;
     by_velocity << skew(momentum.head<3>()), skew(momentum.tail<3>()), skew(momentum.tail<3>()),
@@ -33,7 +34,7 @@ PlacedMotion free_flight(const Matrix6d& inertia, const PlacedMotion& begin, dou
     const Matrix3d to_world = begin.place.orientation.toRotationMatrix();
     Vector6d start;
     start << to_world.transpose() * begin.velocity.head<3>(), to_world.transpose() * begin.velocity.tail<3>();
-    // Newton for the velocity in the middle, by its change from the start.
+    // Newton's method for the velocity at mid-step, by its change from the start.
     const double energy = start.dot(inertia * start);
     Vector6d change = Vector6d::Zero();
     bool is_solved = energy == 0.0;
@@ -47,13 +48,13 @@ PlacedMotion free_flight(const Matrix6d& inertia, const PlacedMotion& begin, dou
         is_solved = step.dot(inertia * step) <= solved * solved * energy;
     }
     if (!is_solved) change.setZero();
-    // The half turn of the middle: with it the momentum, which it turns back in body axes, stays in the
-    // world.
+    // The half rotation of mid-step: the momentum, which it rotates back in body axes, is then constant in
+    // the world.
     const Vector6d middle = start + change;
-    const Vector3d half_turn = 0.5 * time * middle.head<3>();
+    const Vector3d half_rotation = 0.5 * time * middle.head<3>();
     PlacedMotion end;
     end.place.orientation =
-        (begin.place.orientation * Quaterniond(1.0, half_turn.x(), half_turn.y(), half_turn.z()))
+        (begin.place.orientation * Quaterniond(1.0, half_rotation.x(), half_rotation.y(), half_rotation.z()))
             .normalized();
     const Matrix3d end_to_world = end.place.orientation.toRotationMatrix();
     const Vector6d own = start + 2.0 * change;

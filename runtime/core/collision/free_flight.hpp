@@ -11,11 +11,11 @@ struct PlacedMotion {
     Vector6d velocity;
 };
 
-/// How a body of inertia K (body axes, about the centre of mass) moves in a time (s) without any load, in
-/// fluid that is at rest where the velocity is: Kirchhoff's equations by the midpoint rule, in one step. Its
-/// energy and momentum, and without a fluid its angular momentum, stay what they were to rounding. Where it
-/// turns by more than a radian or so the equations may not be solved: then it turns about its axis with its
-/// velocity held in body axes, which keeps the energy alone.
+/// Returns the place and velocity after a time (s) of a body of inertia K (body axes, about the centre of
+/// mass) without any load, in a fluid at rest in the frame of the velocity: Kirchhoff's equations by the
+/// midpoint rule, in one step. Energy and momentum, and without a fluid angular momentum, are conserved to
+/// rounding. Where the body rotates by more than about a radian the equations may not be solved: then it
+/// rotates about its axis with its velocity constant in body axes, which conserves the energy alone.
 PlacedMotion free_flight(const Matrix6d& inertia, const PlacedMotion& begin, double time) noexcept;
 
 }  // namespace samara

@@ -10,16 +10,16 @@ namespace samara {
 namespace {
 
 constexpr double of_face = 1e-6;     // one less the cosine of the angle between a normal and that of its face
-constexpr double sticks_out = 1e-4;  // of a round side over a face, over the bounding radius
-constexpr double drawn_in = 0.03;    // of a hull, towards its middle, where two touch
-constexpr double seam = 1e-6;        // by which a face reaches over its sides, over the bounding radius
+constexpr double sticks_out = 1e-4;  // height of a round side over a face, relative to the bounding radius
+constexpr double drawn_in = 0.03;    // share by which a hull is shrunk towards its middle, where two touch
+constexpr double seam = 1e-6;  // by which a face extends over its sides, relative to the bounding radius
 constexpr std::size_t most_outline = 2 * most_corners + 8;
 
 Vector3d middle_of(const PlacedHull& hull) {
     return hull.position + hull.orientation * hull.points->middle;
 }
 
-/// The plane by which hulls that are each drawn in towards their middle are parted. Round sides are smoothed
+/// Finds the plane that separates hulls which are each shrunk towards their middle. Round sides are smoothed
 /// tables, of which two that touch may seem to overlap by less than that. False where even these overlap.
 bool separation_drawn_in(const CollisionHull& first, const CollisionHull& second, PairSeparation& result) {
     const Vector3d first_middle = middle_of(first.hull);
@@ -44,7 +44,7 @@ bool separation_drawn_in(const CollisionHull& first, const CollisionHull& second
     return true;
 }
 
-/// Of hulls that seem to overlap the direction along which they do so least.
+/// Returns the direction along which hulls that seem to overlap do so least.
 PairSeparation overlapping(const CollisionHull& first, const CollisionHull& second) {
     PairSeparation apart;
     const bool barely = separation_drawn_in(first, second, apart);
@@ -67,7 +67,7 @@ PairSeparation overlapping(const CollisionHull& first, const CollisionHull& seco
     return best;
 }
 
-/// The face of a hull that looks most along a unit vector; null where there is none.
+/// Returns the face of a hull whose normal is nearest to a unit vector; null where there is none.
 const HullFace* face_along(const CollisionHull& of, const Vector3d& direction, double& cosine) {
     const Vector3d own = of.hull.orientation.transpose() * direction;
     const HullFace* found = nullptr;
@@ -92,7 +92,7 @@ class Outline {
         for (const std::size_t corner : face.outline) add(corner_of(hull, corner));
     }
 
-    /// Leaves what lies inside the plane.
+    /// Keeps the part inside the plane.
     void cut(const Vector3d& outwards, double plane) {
         const std::array<Vector3d, most_outline> before = points_;
         const std::size_t count = count_;
@@ -118,7 +118,7 @@ class Outline {
     std::size_t count_ = 0;
 };
 
-/// Leaves of more points than there is room for the lowest, and those that are farthest from all before.
+/// Keeps, of more points than there is room for, the lowest and those that are farthest from all before.
 class PointChoice {
   public:
     void add(const HullContact::Point& point) {
@@ -153,8 +153,8 @@ class PointChoice {
     std::size_t count_ = 0;
 };
 
-/// The points of `lying`, a face of one hull, that lie over the face `carrying` of the other within reach.
-/// `normal`: of the carrying face, outwards; `swapped`: whether the carrying hull is the first.
+/// Adds the points of `lying`, a face of one hull, that lie over the face `carrying` of the other within
+/// reach. `normal`: of the carrying face, outwards; `swapped`: whether the carrying hull is the first.
 void add_shared(const CollisionHull& carrying, const HullFace& face, const CollisionHull& lying,
                 const HullFace& other, const Vector3d& normal, double reach, bool swapped,
                 HullContact& hull_contact) {
@@ -176,7 +176,7 @@ void add_shared(const CollisionHull& carrying, const HullFace& face, const Colli
     choice.give(hull_contact);
 }
 
-/// Whether no round side stands out over the corners along a direction.
+/// Returns whether no round side stands out over the corners along a direction.
 bool ends_in_corners(const CollisionHull& of, const Vector3d& direction) {
     const ContactPoints& points = *of.hull.points;
     if (points.round.empty()) return true;
@@ -236,11 +236,11 @@ HullContact hull_contact(const CollisionHull& first, const CollisionHull& second
 
 namespace {
 
-// Over the bounding radius, or its square.
+// Relative to the bounding radius, or its square.
 constexpr double flat = 1e-5;
 constexpr double smallest_area = 1e-6;
 
-/// How the corners lie about a plane.
+/// The corners on each side of a plane.
 struct Sides {
     bool all_below = true;
     std::vector<std::size_t> within;
@@ -256,7 +256,7 @@ Sides sides_of(const std::vector<Vector3d>& corners, const Vector3d& normal, dou
     return sides;
 }
 
-void turn_around(const std::vector<Vector3d>& corners, HullFace& face) {
+void find_outline(const std::vector<Vector3d>& corners, HullFace& face) {
     Vector3d middle = Vector3d::Zero();
     for (const std::size_t i : face.outline) middle += corners[i];
     middle /= static_cast<double>(face.outline.size());
@@ -285,7 +285,7 @@ std::vector<HullFace> hull_faces(const ContactPoints& points) {
         Sides sides = sides_of(corners, normal, normal.dot(place), flat * radius);
         if (!sides.all_below) return;
         HullFace face{normal, std::move(sides.within)};
-        turn_around(corners, face);
+        find_outline(corners, face);
         faces.push_back(std::move(face));
     };
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -7,10 +7,11 @@
 namespace samara {
 namespace {
 
-// Of the hull, towards its middle. The more, the more askew is the plane beside an edge; the less, the less
-// they may overlap.
+// The share by which the hull is shrunk towards its middle. The larger it is, the more oblique is the plane
+// beside an edge; the smaller, the less the two may overlap.
 constexpr double drawn_in = 0.03;
-constexpr double better = 1e-6;  // over the radius: gap from which another plane than the face's is taken
+// relative to the radius: the gap from which another plane is preferred to the face's
+constexpr double better = 1e-6;
 
 const Vector3d& farthest_corner(const ObstacleTriangle& triangle, const Vector3d& direction) {
     const auto& [a, b, c] = triangle.corners;
@@ -21,7 +22,8 @@ const Vector3d& farthest_corner(const ObstacleTriangle& triangle, const Vector3d
     return at_b >= at_c ? b : c;
 }
 
-/// From the nearest point of the triangle to that of the hull drawn in. False where the two overlap.
+/// Finds the vector from the nearest point of the triangle to that of the shrunk hull. False where the two
+/// overlap.
 bool nearest_to_triangle(const PlacedHull& hull, const ObstacleTriangle& triangle, Simplex& simplex,
                          Vector3d& separation) {
     const Vector3d middle = hull.position + hull.orientation * hull.points->middle;
@@ -147,7 +149,7 @@ bool Simplex::reduce_tetrahedron() {
         const double origin_side = -normal.dot(a);
         const Vector3d height = whole.point(face[3]) - a;
         const double other_side = normal.dot(height);
-        // Of a tetrahedron without volume every face may be the nearest.
+        // Every face of a tetrahedron without volume may be the nearest.
         const bool is_flat = std::abs(other_side) <= flat * normal.norm() * height.norm();
         if (!is_flat && origin_side * other_side > 0.0) continue;
         Simplex part = whole;

@@ -17,19 +17,19 @@ struct PlacedHull {
     Matrix3d orientation;  ///< body axes to the obstacle's
     Vector3d position;     ///< of the centre of mass (m)
 
-    /// The point (m) of the hull that is farthest along a unit vector.
+    /// Returns the point (m) of the hull that is farthest along a unit vector.
     [[nodiscard]] Vector3d farthest(const Vector3d& direction) const noexcept {
         return position +
                orientation * farthest_point(*points, Vector3d(orientation.transpose() * direction));
     }
-    /// The lowest coordinate (m) of the hull along a unit vector.
+    /// Returns the lowest coordinate (m) of the hull along a unit vector.
     [[nodiscard]] double lowest(const Vector3d& direction) const noexcept {
         return direction.dot(farthest(-direction));
     }
     [[nodiscard]] double radius() const noexcept { return points->bounding_radius; }
 };
 
-/// The plane that parts a hull from a triangle.
+/// The plane that separates a hull from a triangle.
 struct Separation {
     Vector3d normal;       ///< of length one, from the triangle to the hull
     double gap;            ///< m: between the two along the normal; negative where they overlap
@@ -37,39 +37,40 @@ struct Separation {
     bool of_face;          ///< whether the normal is one of the triangle's own
 };
 
-/// The plane that leaves the widest gap, or one with a gap above `enough` (m), found sooner. Where the two
-/// touch, or overlap by less than a few hundredths of the hull's size, it is the same plane that would part
-/// them a little farther off; where they overlap by more, a plane of the triangle. Never throws or allocates.
+/// Returns the plane with the widest gap, or one with a gap above `enough` (m), which is found sooner. Where
+/// the two touch, or overlap by less than a few hundredths of the hull's size, it is the plane that would
+/// separate them a little farther apart; where they overlap by more, a plane of the triangle. Never throws or
+/// allocates.
 ///
-/// The direction is that of the nearest points of the triangle and the hull drawn in to its middle by a few
-/// hundredths: Gilbert, Johnson and Keerthi, IEEE Journal of Robotics and Automation 4(2),
-/// 1988, with the nearest points of simplices as in Ericson, Real-Time Collision Detection (2005), 5.1.
+/// The direction is that between the nearest points of the triangle and the hull shrunk towards its middle by
+/// a few hundredths: Gilbert, Johnson and Keerthi, IEEE Journal of Robotics and Automation 4(2), 1988, with
+/// the nearest points of simplices as in Ericson, Real-Time Collision Detection (2005), 5.1.
 Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, double enough) noexcept;
 
-/// The gap (m) between hull and triangle along a unit vector.
+/// Returns the gap (m) between hull and triangle along a unit vector.
 inline double gap_along(const PlacedHull& hull, const ObstacleTriangle& triangle,
                         const Vector3d& normal) noexcept {
     return hull.lowest(normal) - triangle.reach(normal);
 }
 
-/// A point of the difference of two convex bodies, and the second's part in it.
+/// A point of the difference of two convex bodies, and the point of the second that it stems from.
 struct Difference {
     Vector3d point;
     Vector3d on_second;
     double share = 0.0;
 };
 
-/// Up to four of them, and the point nearest to the origin: Ericson, Real-Time Collision Detection (2005),
-/// 5.1. Never allocates.
+/// A simplex of up to four differences, and its point nearest to the origin: Ericson, Real-Time Collision
+/// Detection (2005), 5.1. Never allocates.
 struct Simplex {
     std::array<Difference, 4> corners;
     int size = 0;
 
     [[nodiscard]] Vector3d nearest() const;
-    /// What of the second body the nearest point is made of.
+    /// Returns the point of the second body that the nearest point stems from.
     [[nodiscard]] Vector3d on_second() const;
     void add(const Difference& corner) { corners[static_cast<std::size_t>(size++)] = corner; }
-    /// Keeps the corners that the nearest point lies between. False where the origin lies within.
+    /// Keeps the corners that the nearest point lies between. False where the origin lies within the simplex.
     bool reduce();
 
   private:
@@ -81,15 +82,15 @@ struct Simplex {
     bool reduce_tetrahedron();
 };
 
-/// The way from the nearest point of one convex body to that of another: Gilbert, Johnson and Keerthi, IEEE
+/// Finds the vector between the nearest points of two convex bodies: Gilbert, Johnson and Keerthi, IEEE
 /// Journal of Robotics and Automation 4(2), 1988. `first` and `second` give the point (m) of each body that
-/// is farthest along a unit vector. `way` (m): from the second to the first, at first any guess; where a
-/// plane across it leaves a gap above `enough` (m) it is not the nearest. False where the two overlap. Never
-/// allocates.
+/// is farthest along a unit vector. `separation` (m): from the second to the first, at first any guess; where
+/// a plane across it leaves a gap above `enough` (m) it need not be the shortest. False where the two
+/// overlap. Never allocates.
 template <typename First, typename Second>
 bool nearest_separation(const First& first, const Second& second, Simplex& simplex, Vector3d& separation,
                         double enough = std::numeric_limits<double>::infinity()) noexcept {
-    constexpr int most_rounds = 32;      // five are common, round bodies need some more
+    constexpr int most_rounds = 32;      // five are common, round bodies need a few more
     constexpr double converged = 1e-13;  // of the squared distance
     if (separation.squaredNorm() == 0.0) return false;
     double square = std::numeric_limits<double>::infinity();
@@ -97,16 +98,17 @@ bool nearest_separation(const First& first, const Second& second, Simplex& simpl
         const Vector3d direction = separation.normalized();
         const Vector3d of_second = second(direction);
         const Vector3d point = first(-direction) - of_second;
-        const double parted = separation.dot(point);
-        if (round > 0 && separation.squaredNorm() - parted <= converged * square) return true;
-        if (parted > 0.0 && parted * parted > enough * enough * separation.squaredNorm()) return true;
+        const double separated = separation.dot(point);
+        if (round > 0 && separation.squaredNorm() - separated <= converged * square) return true;
+        if (separated > 0.0 && separated * separated > enough * enough * separation.squaredNorm())
+            return true;
         const Simplex before = simplex;
         simplex.add({point, of_second, 1.0});
         const bool is_outside = simplex.reduce();
         const Vector3d next = is_outside ? simplex.nearest() : Vector3d::Zero();
         const double next_square = next.squaredNorm();
-        if (!(next_square > 0.0) && parted <= 0.0) return false;
-        // Where a plane parts the two already, nothing but rounding finds the origin within.
+        if (!(next_square > 0.0) && separated <= 0.0) return false;
+        // Where a plane separates the two already, only rounding places the origin within the simplex.
         if (!(next_square > 0.0) || !(next_square < square)) {
             simplex = before;
             return true;

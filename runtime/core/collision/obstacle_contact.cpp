@@ -9,12 +9,14 @@
 namespace samara {
 namespace {
 
-// Chosen by trial: what they must give is what the tests ObstacleContact and ObstacleStability hold them to.
-constexpr double starting = 1e-6;     // overlap with which a body may start, over the bounding radius
-constexpr double slack = 1e-4;        // overlap that is let be until it is lifted, over the bounding radius
-constexpr double small_turn = 0.06;   // the same that a turn makes: half the square of 0.3 rad, and some
-constexpr double finest_part = 1e-3;  // of a way, to which the place is found where a body arrives
-constexpr int most_rounds = 4;        // over all faces near a body
+// Chosen by trial, so that the tests ObstacleContact and ObstacleStability pass.
+constexpr double starting = 1e-6;  // overlap with which a body may start, relative to the bounding radius
+// overlap that is tolerated before it is removed, relative to the bounding radius
+constexpr double slack = 1e-4;
+// the same where a rotation causes it: half the square of 0.3 rad, and a little more
+constexpr double small_rotation = 0.06;
+constexpr double finest_share = 1e-3;  // precision of the place where a body arrives, relative to its path
+constexpr int most_rounds = 4;         // passes over all faces near a body
 constexpr int rounds_of_lifting = 2;
 
 PlacedHull placed(const ContactPoints& points, const BodyPlace& body, const ObstaclePlace& obstacle) {
@@ -27,13 +29,13 @@ Eigen::AlignedBox3d box_about(const Vector3d& a, const Vector3d& b, double radiu
     return {a.cwiseMin(b) - Vector3d::Constant(radius), a.cwiseMax(b) + Vector3d::Constant(radius)};
 }
 
-/// The mean angular velocity (rad/s, world axes) of a turn.
+/// Returns the mean angular velocity (rad/s, world axes) of a rotation.
 Vector3d angular_velocity(const Quaterniond& from, const Quaterniond& to, double time) {
-    const Eigen::AngleAxisd turn(to * from.conjugate());
-    return turn.angle() / time * turn.axis();
+    const Eigen::AngleAxisd rotation(to * from.conjugate());
+    return rotation.angle() / time * rotation.axis();
 }
 
-/// The way of a body as an obstacle sees it.
+/// The path of a body as an obstacle sees it.
 class Passage {
   public:
     Passage(const ContactPoints& points, const BodyPlace& before, const BodyPlace& after,
@@ -58,7 +60,7 @@ class Passage {
     [[nodiscard]] Vector3d to_world(const Vector3d& direction) const {
         return obstacle_.orientation * direction;
     }
-    /// No point of the body comes farther (m).
+    /// Returns an upper bound (m) of the distance that any point of the body moves.
     [[nodiscard]] double length() const {
         return (end_.position - begin_.position).norm() +
                points_.bounding_radius * begin_.orientation.angularDistance(end_.orientation);
@@ -84,15 +86,15 @@ class Passage {
     BodyPlace begin_, end_;
 };
 
-/// How much of the way, up to 1, a body surely comes without passing through the triangle: at both ends of
-/// each part of it one plane parts the two.
+/// Returns the share of the path, up to 1, that a body surely completes without passing through the triangle:
+/// at both ends of each part of it one plane separates the two.
 double free_share(const Passage& passage, const ObstacleTriangle& triangle, double allowed) {
     constexpr double any = std::numeric_limits<double>::infinity();
     double share = 0.0;
     double part = 0.5;
     PlacedHull hull = passage.hull(0.0);
     Vector3d normal = separation(hull, triangle, any).normal;
-    while (share < 1.0 && part >= finest_part) {
+    while (share < 1.0 && part >= finest_share) {
         const double next_share = std::min(1.0, share + part);
         const PlacedHull next = passage.hull(next_share);
         const Separation there = separation(next, triangle, any);
@@ -109,19 +111,19 @@ double free_share(const Passage& passage, const ObstacleTriangle& triangle, doub
     return share;
 }
 
-/// Mends the end of the way with regard to one triangle; returns whether it had to.
+/// Corrects the end of the path with regard to one triangle; returns whether it had to.
 bool pass_by(Passage& passage, const ObstacleTriangle& triangle, double radius, int round, BodyPlace& after) {
     const double allowed = slack * radius;
     const PlacedHull begin = passage.hull(0.0);
     const Separation before = separation(begin, triangle, passage.length());
     if (before.gap > passage.length()) return false;
-    if (before.gap < -allowed) return false;  // it began inside, and is to come out
+    if (before.gap < -allowed) return false;  // it began inside, and is moved out later
     const PlacedHull end = passage.hull(1.0);
     const double gap = gap_along(end, triangle, before.normal);
     if (gap >= -allowed) return false;
     const Separation later = separation(end, triangle, std::numeric_limits<double>::infinity());
     if (later.gap >= -allowed && gap_along(begin, triangle, later.normal) >= -allowed) return false;
-    if (round < rounds_of_lifting && -gap <= small_turn * radius) {
+    if (round < rounds_of_lifting && -gap <= small_rotation * radius) {
         after.position -= gap * passage.to_world(before.normal);
     } else {
         const double share = round + 1 < most_rounds ? free_share(passage, triangle, allowed) : 0.0;
@@ -141,7 +143,7 @@ void lift(const ObstacleSet& obstacles, const ContactPoints& points, double time
         faces.visit_near(box_about(hull.position, hull.position, radius),
                          [&](const ObstacleTriangle& triangle) {
                              const Separation part = separation(placed(points, body, place), triangle, 0.0);
-                             if (part.gap < 0.0 && part.gap > -small_turn * radius)
+                             if (part.gap < 0.0 && part.gap > -small_rotation * radius)
                                  body.position -= part.gap * (place.orientation * part.normal);
                          });
     }

@@ -5,13 +5,13 @@
 #include <numbers>
 #include <utility>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {
 
-// Sine of the angle from which an edge is not flat: meshes of a plane are flat to far less, and no mesh of a
+// The sine of the angle from which an edge is not flat: meshes of a plane are far flatter, and no mesh of a
 // curve is so fine.
 constexpr double flat = 1e-6;
 
@@ -32,8 +32,8 @@ ObstacleFaces::ObstacleFaces(Obstacle obstacle) : obstacle_(std::move(obstacle))
 
 void ObstacleFaces::set_keys(std::vector<ObstacleKey> keys) {
     for (std::size_t i = 1; i < keys.size(); ++i) {
-        Quaterniond& turned = keys[i].orientation;
-        if (turned.dot(keys[i - 1].orientation) < 0.0) turned.coeffs() *= -1.0;
+        Quaterniond& orientation = keys[i].orientation;
+        if (orientation.dot(keys[i - 1].orientation) < 0.0) orientation.coeffs() *= -1.0;
     }
     obstacle_.keys = std::move(keys);
     measure_displacements();

@@ -15,21 +15,21 @@
 
 namespace samara {
 
-/// A face of an obstacle, made ready to be met from both of its sides.
+/// A face of an obstacle, prepared for contacts on both of its sides.
 struct ObstacleTriangle {
     std::array<Vector3d, 3> corners;  ///< m, shape axes
     Vector3d normal;
-    /// The third corner of the face beyond each side, from corner i to the next; where the surface ends the
-    /// side's own first.
+    /// The third corner of the face beyond each side, from corner i to the next; the first corner of the side
+    /// where the surface ends.
     std::array<Vector3d, 3> beyond;
-    /// Which sides something can lie on, from above or below: those where the surface ends or is not flat.
+    /// Whether something can lie on each side, from above or below: where the surface ends or is not flat.
     std::array<bool, 3> stands_out;
-    /// From each corner unit vectors along all sides that end there, of any face.
+    /// Unit vectors from each corner along all sides that end there, of any face.
     std::array<std::span<const Vector3d>, 3> around;
     /// The triangle's number in the surface.
     std::int32_t index;
 
-    /// How far (m) it reaches along a unit vector.
+    /// Returns the distance (m) that it reaches along a unit vector.
     [[nodiscard]] double reach(const Vector3d& direction) const noexcept {
         return std::max({corners[0].dot(direction), corners[1].dot(direction), corners[2].dot(direction)});
     }
@@ -38,7 +38,7 @@ struct ObstacleTriangle {
 /// One obstacle with a tree of boxes over its faces.
 class ObstacleFaces {
   public:
-    /// The surface must be welded and have no face without area.
+    /// Prepares an obstacle, whose surface must be welded and have no face without area.
     explicit ObstacleFaces(Obstacle obstacle);
     ObstacleFaces(ObstacleFaces&&) noexcept = default;
     ObstacleFaces& operator=(ObstacleFaces&&) noexcept = default;
@@ -47,18 +47,18 @@ class ObstacleFaces {
     ~ObstacleFaces() = default;
 
     [[nodiscard]] const Obstacle& obstacle() const noexcept { return obstacle_; }
-    /// Other keys to move between: one at least, in ascending order of time.
+    /// Replaces the keys: one at least, in ascending order of time.
     void set_keys(std::vector<ObstacleKey> keys);
-    /// Whether it has an inside.
+    /// Returns whether it has an inside.
     [[nodiscard]] bool is_closed() const noexcept { return is_closed_; }
-    /// Whether a point (m, shape axes) lies inside it, which must be closed.
+    /// Returns whether a point (m, shape axes) lies inside the obstacle, which must be closed.
     [[nodiscard]] bool encloses(const Vector3d& point) const noexcept;
-    /// No point of it moves faster (m/s).
+    /// Returns an upper bound of the speed (m/s) of its points.
     [[nodiscard]] double fastest() const noexcept { return fastest_; }
-    /// A box in the world that it never leaves.
+    /// Returns a box in the world that it never leaves.
     [[nodiscard]] const Eigen::AlignedBox3d& whereabouts() const noexcept { return whereabouts_; }
 
-    /// Calls `visit` with each face whose box meets `box` (m, shape axes). Never allocates.
+    /// Calls `visit` with each face whose box intersects `box` (m, shape axes). Never allocates.
     template <typename Visit>
     void visit_near(const Eigen::AlignedBox3d& box, const Visit& visit) const noexcept {
         tree_.visit_near(box, [&](std::uint32_t i) {
@@ -82,22 +82,22 @@ class ObstacleFaces {
     BoxTree tree_;
 };
 
-/// All obstacles of a flight.
+/// All obstacles of a simulation.
 class ObstacleSet {
   public:
     explicit ObstacleSet(const std::vector<Obstacle>& obstacles);
 
-    /// One more, as ObstacleFaces takes it.
+    /// Adds an obstacle, as ObstacleFaces takes it.
     void add(Obstacle obstacle);
-    /// Other keys of an obstacle, as ObstacleFaces takes them.
+    /// Replaces the keys of an obstacle, as ObstacleFaces takes them.
     void set_keys(std::size_t index, std::vector<ObstacleKey> keys);
 
     [[nodiscard]] const std::vector<ObstacleFaces>& obstacles() const noexcept { return obstacles_; }
-    /// Whether any of them has keys.
+    /// Returns whether any of them has keys.
     [[nodiscard]] bool moves() const noexcept { return fastest_ > 0.0; }
-    /// No point of any moves faster (m/s).
+    /// Returns an upper bound of the speed (m/s) of the points of all.
     [[nodiscard]] double fastest() const noexcept { return fastest_; }
-    /// A box in the world that none ever leaves.
+    /// Returns a box in the world that none ever leaves.
     [[nodiscard]] const Eigen::AlignedBox3d& whereabouts() const noexcept { return whereabouts_; }
 
   private:

@@ -10,19 +10,21 @@
 namespace samara {
 namespace {
 
-// Chosen by trial, not derived: what they must give, no energy, no sinking and rest to the last bit, is what
-// the tests GroundContact, GroundRest, Settling and Encounters hold them to.
+// Chosen by trial, not derived, so that the tests GroundContact, GroundRest, Settling and Encounters pass: no
+// energy is gained, nothing sinks, and bodies rest to the last bit.
 constexpr int most_sweeps = 100;
-constexpr int most_attempts = 12;   // to find what holds
-constexpr double converged = 1e-6;  // change of an impulse in a sweep, over the largest
-constexpr double settling = 1e-2;   // the same, from which on further points are looked for
-constexpr double sinking = 1e-7;    // speed of a point through what it meets that is let be, over the body's
-constexpr double stiffness = 1e3;   // of what holds the points that stick, over the body's inertia there
+constexpr int most_attempts = 12;   // to find which points stick
+constexpr double converged = 1e-6;  // change of an impulse in a sweep, relative to the largest
+constexpr double settling = 1e-2;   // change of an impulse in a sweep, relative to the largest, below which
+                                    // further points are looked for
+constexpr double sinking = 1e-7;    // speed of penetration that is tolerated, relative to the body's
+// stiffness of the springs at sticking points, relative to the body's inertia there
+constexpr double stiffness = 1e3;
 constexpr int most_joint_sweeps = 60;  // forwards and backwards
 constexpr double joint_converged = 1e-5;
 
-/// Stops rates where impulses within `bound` can, else slows them: returns what the size becomes, and whether
-/// it is the first.
+/// Stops rates where impulses within `bound` can, else slows them: returns the new size, and whether the
+/// rates stop.
 template <int N>
 std::pair<Eigen::Matrix<double, N, 1>, bool> held(const Eigen::Matrix<double, N, 1>& size,
                                                   const Eigen::Matrix<double, N, 1>& rates,
@@ -30,20 +32,21 @@ std::pair<Eigen::Matrix<double, N, 1>, bool> held(const Eigen::Matrix<double, N,
                                                   double bound) {
     Eigen::Matrix<double, N, 1> after = size - inverse * rates;
     if (after.norm() <= bound) return {after, true};
-    // A step of projected gradients: no longer than the mobility's trace allows, so it never gains.
+    // A step of projected gradients, no longer than the mobility's trace allows, so that it never gains
+    // energy.
     after = size - rates / trace;
     const double length = after.norm();
     if (length > bound) after *= bound / length;
     return {after, false};
 }
 
-/// Which of the impulses at a point bring about the rates that are meant, within their bounds.
+/// Tells which of the impulses at a point cause the target rates, within their bounds.
 struct Held {
-    bool slip = false, turn = false;
+    bool slip = false, spin = false;
 };
 
-/// Finds the impulses at one point anew, those at all others being what they are. `motion` has the rates at
-/// the point that are not meant (closing, slip, turn), and changes velocities (add).
+/// Updates the impulses at one point while those at all others stay. `motion` has the rates at the point
+/// relative to their targets (closing, slip, spin), and changes velocities (add).
 template <typename Motion>
 Held relax(ContactImpulses& impulses, const Motion& motion) {
     Vector6d& size = impulses.size;
@@ -61,17 +64,17 @@ Held relax(ContactImpulses& impulses, const Motion& motion) {
     motion.add(
         [&](const ContactImpulses::Side& side) -> Vector6d { return side.push.leftCols<2>() * slip_change; });
 
-    const auto [turn, turn_holds] = held<3>(size.tail<3>(), motion.turn(), impulses.turn_inverse,
-                                            impulses.turn_mobility.trace(), impulses.lever * normal);
-    const Vector3d turn_change = turn - size.tail<3>();
-    size.tail<3>() = turn;
-    motion.add([&](const ContactImpulses::Side& side) -> Vector6d { return side.turn * turn_change; });
-    return {slip_holds, turn_holds};
+    const auto [spin, spin_holds] = held<3>(size.tail<3>(), motion.spin(), impulses.spin_inverse,
+                                            impulses.spin_mobility.trace(), impulses.lever * normal);
+    const Vector3d spin_change = spin - size.tail<3>();
+    size.tail<3>() = spin;
+    motion.add([&](const ContactImpulses::Side& side) -> Vector6d { return side.spin * spin_change; });
+    return {slip_holds, spin_holds};
 }
 
-/// The share of impulses that adds no energy: of those that do so much work (J) on the velocities before, and
-/// whose square by the inverse inertia (J) is given. Friction that was bounded by a normal impulse which
-/// later fell may add a little.
+/// Returns the share of the impulses that adds no energy. Their work (J) on the velocities before, and their
+/// square by the inverse inertia (J) are given. Friction that was bounded by a normal impulse which later
+/// fell may add a little.
 double passive_share(double gain, double square) {
     return gain + 0.5 * square <= 0.0 ? 1.0 : std::max(0.0, -gain / square);
 }
@@ -87,7 +90,7 @@ Matrix3d axes_about(const Vector3d& normal) {
 /// A near point that no impulse acts on yet.
 struct Candidate {
     const NearPoint* near;
-    double allowed_speed;  ///< against the normal, relative to the ground
+    double allowed_speed;  ///< m/s, against the normal, relative to the ground
 };
 
 /// The points within the margin.
@@ -109,7 +112,7 @@ class Candidates {
         }
     }
 
-    /// Takes out the candidate that sinks fastest, if any does by more than `tolerance` (m/s).
+    /// Removes and returns the candidate that penetrates fastest, if any does by more than `tolerance` (m/s).
     bool take_fastest(const Vector6d& velocity, double tolerance, Candidate& taken) noexcept {
         const Sinking over_ground(up_, velocity);
         std::size_t fastest = count_;
@@ -129,7 +132,7 @@ class Candidates {
     }
 
   private:
-    /// What a velocity is along a normal.
+    /// The component of a velocity along a normal.
     struct Sinking {
         Sinking(const Vector3d& normal, const Vector6d& velocity)
             : linear(normal.dot(velocity.tail<3>())), angular(normal.cross(velocity.head<3>())) {}
@@ -143,26 +146,27 @@ class Candidates {
     std::size_t count_ = 0;
 };
 
-/// The impulses at a point of a body by itself.
+/// The impulses at a contact point of a single body.
 struct Contact : ContactImpulses {
     using Rows = Eigen::Matrix<double, 3, 6>;
 
     const NearPoint* near;
-    Rows along, about;  ///< J: velocity -> rates along and about the axes
+    Rows along, about;  ///< J: maps a velocity to rates along and about the axes
     Held holds;
     Vector6d step;  ///< a change of the size
 
-    /// Visits what is solved for at once: its place in the size, its row of J, its mobility and its rate.
+    /// Visits the impulses that are solved for together: each one's place in the size, its row of J, its
+    /// mobility and its rate.
     template <typename Function>
     void for_each_held(const Function& function) const {
         for (int i = holds.slip ? 0 : 2; i < 3; ++i) {
-            function(i, along.row(i), push_mobility(i, i), meant[i]);
+            function(i, along.row(i), push_mobility(i, i), target[i]);
         }
-        for (int i = 0; holds.turn && i < 3; ++i) {
-            function(3 + i, about.row(i), turn_mobility(i, i), meant_turn[i]);
+        for (int i = 0; holds.spin && i < 3; ++i) {
+            function(3 + i, about.row(i), spin_mobility(i, i), target_spin[i]);
         }
     }
-    /// Holds those by springs at the rates that are meant.
+    /// Holds those by springs at their target rates.
     void brace(const Vector6d& velocity, Matrix6d& stiff, Vector6d& pull) {
         step.setZero();
         for_each_held([&](int i, const auto& row, double mobility, double rate) {
@@ -172,7 +176,7 @@ struct Contact : ContactImpulses {
             pull += row.transpose() * step[i];
         });
     }
-    /// What the springs push with, once the velocity has changed.
+    /// Adds the impulses of the springs, once the velocity has changed.
     void follow(const Vector6d& change) {
         for_each_held([&](int i, const auto& row, double mobility, double) {
             step[i] -= stiffness / mobility * row.dot(change);
@@ -180,7 +184,7 @@ struct Contact : ContactImpulses {
     }
 };
 
-/// The share, up to 1, of a step that keeps a size within its bound, which changes with it.
+/// Returns the share, up to 1, of a step that keeps a size within its bound, which changes with it.
 template <typename Part>
 double share_within(const Part& size, const Part& step, double bound, double bound_step) {
     // |size + s step|^2 <= (bound + s bound_step)^2
@@ -194,10 +198,10 @@ double share_within(const Part& size, const Part& step, double bound, double bou
     return a > 0.0 ? std::clamp((root - b) / a, 0.0, 1.0) : 1.0;
 }
 
-/// The velocity of a body by itself, relative to the ground, while impulses act on it.
+/// The velocity of a single body, relative to the ground, while impulses act on it.
 class ImpulseSolver {
   public:
-    /// `surfaces_move`: whether what bodies meet has its velocity, or stands still.
+    /// `surfaces_move`: whether the touched surfaces have their velocity, or stand still.
     ImpulseSolver(const TouchingBody& body, const Matrix3d& to_world, bool surfaces_move,
                   const Vector6d& velocity) noexcept
         : body_(body), to_world_(to_world), surfaces_move_(surfaces_move), velocity_(velocity) {}
@@ -219,7 +223,7 @@ class ImpulseSolver {
                 Contact& contact = contacts_[i];
                 const Vector6d before = contact.size;
                 contact.holds = relax(contact, Motion{contact, velocity_});
-                note(contact, before);
+                record_change(contact, before);
             }
             stick();
         }
@@ -227,7 +231,7 @@ class ImpulseSolver {
 
     [[nodiscard]] const Vector6d& velocity() const { return velocity_; }
 
-    /// What the impulses are, times `share`.
+    /// Returns the impulses times `share`.
     [[nodiscard]] ContactRecord record(double share) const noexcept {
         ContactRecord all;
         for (std::size_t i = 0; i < count_; ++i) {
@@ -242,7 +246,7 @@ class ImpulseSolver {
         return all;
     }
 
-    /// The work (J) of the surfaces that move.
+    /// Returns the work (J) of the moving surfaces.
     [[nodiscard]] double work() const noexcept {
         double sum = 0.0;
         for (std::size_t i = 0; surfaces_move_ && i < count_; ++i) sum += contacts_[i].work();
@@ -255,12 +259,12 @@ class ImpulseSolver {
         Vector6d& velocity;
 
         [[nodiscard]] double closing() const {
-            return contact.along.row(2).dot(velocity) - contact.meant.z();
+            return contact.along.row(2).dot(velocity) - contact.target.z();
         }
         [[nodiscard]] Eigen::Vector2d slip() const {
-            return contact.along.topRows<2>() * velocity - contact.meant.head<2>();
+            return contact.along.topRows<2>() * velocity - contact.target.head<2>();
         }
-        [[nodiscard]] Vector3d turn() const { return contact.about * velocity - contact.meant_turn; }
+        [[nodiscard]] Vector3d spin() const { return contact.about * velocity - contact.target_spin; }
         template <typename Change>
         void add(const Change& change) const {
             velocity += change(contact.first);
@@ -276,19 +280,19 @@ class ImpulseSolver {
                       moves ? near.surface_velocity : Vector3d::Zero(),
                       moves ? near.surface_angular_velocity : Vector3d::Zero(), near.friction,
                       body_.contact_points.bounding_radius);
-        contact.meant.z() = -candidate.allowed_speed;
+        contact.target.z() = -candidate.allowed_speed;
         contact.along << -contact.axes * skew(near.point), contact.axes;
         contact.about << contact.axes, Matrix3d::Zero();
         contact.first.push = body_.inverse_inertia * contact.along.transpose();
-        contact.first.turn = body_.inverse_inertia * contact.about.transpose();
+        contact.first.spin = body_.inverse_inertia * contact.about.transpose();
         contact.push_mobility = contact.along * contact.first.push;
-        contact.turn_mobility = contact.about * contact.first.turn;
+        contact.spin_mobility = contact.about * contact.first.spin;
         contact.invert();
     }
 
-    /// Solves at once for all points that press and all that is held, as if by springs so stiff that they
-    /// leave next to nothing. Where one would pull or leave friction's bounds it goes as far as
-    /// that, lets go of it, and goes on. Sweeps alone take hundreds where points stand close together.
+    /// Solves for all pressing and sticking points together, as if by springs so stiff that they yield next
+    /// to nothing. Where one would pull or leave friction's bounds it goes to that bound, is released, and
+    /// the solution continues. Sweeps alone take hundreds where points are close together.
     void stick() noexcept {
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
             Matrix6d stiff = body_.inertia;
@@ -314,7 +318,7 @@ class ImpulseSolver {
                     limit(share_within(part, its_step, bound * size[2], bound * step[2]), contact, what);
                 };
                 limit_to(size.head<2>(), step.head<2>(), contact.friction, &Held::slip);
-                limit_to(size.tail<3>(), step.tail<3>(), contact.lever, &Held::turn);
+                limit_to(size.tail<3>(), step.tail<3>(), contact.lever, &Held::spin);
                 if (step[2] < 0.0) limit(-size[2] / step[2], contact, nullptr);
             });
             for_each_pressing([&](Contact& contact) { contact.size += share * contact.step; });
@@ -325,7 +329,7 @@ class ImpulseSolver {
                 continue;
             }
             velocity_ -=
-                lets_go->first.push * lets_go->size.head<3>() + lets_go->first.turn * lets_go->size.tail<3>();
+                lets_go->first.push * lets_go->size.head<3>() + lets_go->first.spin * lets_go->size.tail<3>();
             lets_go->size.setZero();
         }
     }
@@ -337,8 +341,8 @@ class ImpulseSolver {
         }
     }
 
-    /// How far impulses changed in a sweep.
-    void note(const Contact& contact, const Vector6d& before) noexcept {
+    /// Records the change of impulses in a sweep.
+    void record_change(const Contact& contact, const Vector6d& before) noexcept {
         const Vector6d change = contact.size - before;
         const auto add = [&](double by, double to, double mobility) {
             change_ = std::max(change_, by * std::sqrt(mobility));
@@ -347,7 +351,7 @@ class ImpulseSolver {
         add(std::abs(change[2]), contact.size[2], contact.push_mobility(2, 2));
         add(change.head<2>().norm(), contact.size.head<2>().norm(),
             contact.push_mobility(0, 0) + contact.push_mobility(1, 1));
-        add(change.tail<3>().norm(), contact.size.tail<3>().norm(), contact.turn_mobility.trace());
+        add(change.tail<3>().norm(), contact.size.tail<3>().norm(), contact.spin_mobility.trace());
     }
 
     const TouchingBody& body_;
@@ -366,7 +370,8 @@ struct JointMotion {
     const ContactBetween& point;
     const ContactImpulses& impulses;
 
-    /// How fast the first passes the second at the point (m/s), or what it meets there.
+    /// Returns the velocity (m/s) of the first relative to the second, or to the surface that it touches, at
+    /// the point.
     [[nodiscard]] Vector3d passing() const {
         const Vector6d& a = bodies[point.first].velocity;
         Vector3d rate = a.tail<3>() + a.head<3>().cross(point.first_arm);
@@ -375,14 +380,14 @@ struct JointMotion {
         rate -= b.tail<3>() + b.head<3>().cross(point.second_arm);
         return rate;
     }
-    [[nodiscard]] double closing() const { return point.normal.dot(passing()) - impulses.meant.z(); }
+    [[nodiscard]] double closing() const { return point.normal.dot(passing()) - impulses.target.z(); }
     [[nodiscard]] Eigen::Vector2d slip() const {
-        return Vector3d(impulses.axes * passing() - impulses.meant).head<2>();
+        return Vector3d(impulses.axes * passing() - impulses.target).head<2>();
     }
-    [[nodiscard]] Vector3d turn() const {
+    [[nodiscard]] Vector3d spin() const {
         Vector3d rate = bodies[point.first].velocity.head<3>();
         if (point.second != ContactBetween::none) rate -= bodies[point.second].velocity.head<3>();
-        return impulses.axes * rate - impulses.meant_turn;
+        return impulses.axes * rate - impulses.target_spin;
     }
     template <typename Change>
     void add(const Change& change) const {
@@ -391,7 +396,7 @@ struct JointMotion {
     }
     void add_size(const Vector6d& size) const {
         add([&](const ContactImpulses::Side& side) -> Vector6d {
-            return side.push * size.head<3>() + side.turn * size.tail<3>();
+            return side.push * size.head<3>() + side.spin * size.tail<3>();
         });
     }
 };
@@ -402,9 +407,9 @@ void ContactImpulses::begin(const Matrix3d& along, const Vector3d& surface_veloc
                             const Vector3d& surface_angular_velocity, double friction_coefficient,
                             double radius) noexcept {
     axes = along;
-    meant = axes * surface_velocity;
-    meant_turn = axes * surface_angular_velocity;
-    rising = meant.z();
+    target = axes * surface_velocity;
+    target_spin = axes * surface_angular_velocity;
+    rising = target.z();
     friction = friction_coefficient;
     lever = rolling_resistance * radius;
     size.setZero();
@@ -412,11 +417,11 @@ void ContactImpulses::begin(const Matrix3d& along, const Vector3d& surface_veloc
 
 void ContactImpulses::invert() noexcept {
     slip_inverse = push_mobility.topLeftCorner<2, 2>().inverse();
-    turn_inverse = turn_mobility.inverse();
+    spin_inverse = spin_mobility.inverse();
 }
 
 double ContactImpulses::work() const noexcept {
-    return size.head<2>().dot(meant.head<2>()) + size[2] * rising + size.tail<3>().dot(meant_turn);
+    return size.head<2>().dot(target.head<2>()) + size[2] * rising + size.tail<3>().dot(target_spin);
 }
 
 Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
@@ -448,12 +453,12 @@ void ContactSolver::prepare(std::span<ContactBody> bodies, std::span<const Conta
             ContactImpulses::Response wrench;
             wrench << skew(arm) * across, across;
             side.push = body.inverse_inertia * wrench;
-            side.turn = body.inverse_inertia.leftCols<3>() * across;
+            side.spin = body.inverse_inertia.leftCols<3>() * across;
             row.push_mobility += wrench.transpose() * side.push;
-            row.turn_mobility += across.transpose() * side.turn.topRows<3>();
+            row.spin_mobility += across.transpose() * side.spin.topRows<3>();
         };
         row.push_mobility.setZero();
-        row.turn_mobility.setZero();
+        row.spin_mobility.setZero();
         respond(bodies[point.first], point.first_arm, row.first);
         double radius = bodies[point.first].radius;
         if (point.second != ContactBetween::none) {
@@ -462,7 +467,7 @@ void ContactSolver::prepare(std::span<ContactBody> bodies, std::span<const Conta
             radius = std::min(radius, second.radius);
         }
         row.begin(axes, point.surface_velocity, point.surface_angular_velocity, point.friction, radius);
-        row.meant.z() -= point.allowed_speed;
+        row.target.z() -= point.allowed_speed;
         row.invert();
     }
 }
@@ -513,12 +518,12 @@ void ContactSolver::keep_passive(std::span<ContactBody> bodies, std::span<Contac
         const ContactBetween& point = points[i];
         const Row& row = rows_[i];
         const Vector3d push = row.push();
-        const Vector3d turn = row.axes.transpose() * row.size.tail<3>();
+        const Vector3d spin = row.axes.transpose() * row.size.tail<3>();
         Vector6d wrench;
-        wrench << point.first_arm.cross(push) + turn, push;
+        wrench << point.first_arm.cross(push) + spin, push;
         impulse_[point.first] += wrench;
         if (point.second != ContactBetween::none) {
-            wrench << point.second_arm.cross(push) + turn, push;
+            wrench << point.second_arm.cross(push) + spin, push;
             impulse_[point.second] -= wrench;
         } else {
             gain -= row.work();

@@ -11,62 +11,63 @@
 
 namespace samara {
 
-/// How a body comes to what it may touch.
+/// The approach of a body to what it may touch.
 struct Approach {
-    double margin = 0.0;     ///< m: points with a larger gap are left out
+    double margin = 0.0;     ///< m: points with a larger gap are ignored
     double touching = 0.0;   ///< m: gaps up to this count as none
-    double time_step = 0.0;  ///< s: in which a point may close what is left of its gap, and no more
-    /// A velocity that it has besides, (omega, v) in body axes, relative to the ground. Where there is one,
-    /// obstacles that move do so under it, and what impulses change is a way over which they stand still.
+    double time_step = 0.0;  ///< s: the time in which a point may close the rest of its gap, and no more
+    /// An additional velocity (omega, v) in body axes, relative to the ground. Where there is one, moving
+    /// obstacles move under it, and impulses change a displacement over which they stand still.
     std::optional<Vector6d> drift = {};
 };
 
-/// What inelastic impulses with Coulomb friction and rolling resistance make of a velocity (omega, v; body
-/// axes, relative to the ground). They act where a near point would else go through what it may meet, found
-/// one after the other, on `most_contacts` points at most, and never add energy but the work of obstacles
-/// that move: else w K w / 2 does not grow. `met` (null: not asked for) becomes what they are, in body axes
-/// and from the centre of mass, without a time. Never throws or allocates.
+/// Returns a velocity (omega, v; body axes, relative to the ground) after inelastic impulses with Coulomb
+/// friction and rolling resistance. They act where a near point would otherwise penetrate, found one after
+/// the other, at `most_contacts` points at most, and never add energy but the work of moving obstacles: w K w
+/// / 2 does not grow otherwise. `record` (null: not asked for) receives the impulses, in body axes and from
+/// the centre of mass, without a time. Never throws or allocates.
 ///
 /// Projected Gauss-Seidel on the impulses: Erleben, Velocity-based shock propagation for multibody dynamics
 /// animation, ACM Transactions on Graphics 26(2), 2007, section 3; the inertia here is K, the fluid's
-/// included. As one body has six velocities only, what sticks is solved for at once after each sweep.
+/// included. As one body has six velocities only, all sticking points are solved for together after each
+/// sweep.
 Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
                         const Vector6d& velocity, ContactRecord* record = nullptr) noexcept;
 
-/// How far the load of a contact point stands off it, over the bounding radius: what stops a ball that rolls
-/// and a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm (docs/theory.md#ground).
+/// The lever of the load at a contact point, relative to the bounding radius: it stops a ball that rolls and
+/// a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm (docs/theory.md#ground).
 inline constexpr double rolling_resistance = 0.005;
 inline constexpr std::size_t most_contacts = 16;
 
-/// The impulses at one contact point, along two tangents and the normal, and what resists being rolled over
-/// or spun there, about the same axes: one body is given them, and what it touches the opposite.
+/// The impulses at one contact point: forces along two tangents and the normal, and moments against rolling
+/// and spinning about the same axes. One body receives them, and what it touches the opposite.
 struct ContactImpulses {
     using Response = Eigen::Matrix<double, 6, 3>;
-    /// The velocity (omega, v) that a body gets of impulses of one along and about the axes.
+    /// The velocity (omega, v) that unit impulses along and about the axes give a body.
     struct Side {
-        Response push, turn;
+        Response push, spin;
     };
 
     Matrix3d axes;  ///< two tangents and the normal, as rows
     Side first, second;
-    Matrix3d push_mobility, turn_mobility;  ///< rates along and about the axes of impulses of one
+    Matrix3d push_mobility, spin_mobility;  ///< rates along and about the axes of unit impulses
     Eigen::Matrix2d slip_inverse;           ///< of the mobility along the tangents
-    Matrix3d turn_inverse;
-    Vector3d meant, meant_turn;  ///< rates that the impulses bring about
-    double rising;               ///< m/s: of the surface, along the normal
+    Matrix3d spin_inverse;
+    Vector3d target, target_spin;  ///< target rates of the impulses
+    double rising;                 ///< m/s: of the surface, along the normal
     double friction;
     double lever;   ///< m
     Vector6d size;  ///< along the axes, then about them
 
-    /// Sets all but mobilities and responses, with impulses of none: a surface with a velocity (m/s) and an
-    /// angular velocity (rad/s), between bodies the smaller of which is held by a sphere of a radius (m).
+    /// Sets all but mobilities and responses, with impulses of zero: for a surface with a velocity (m/s) and
+    /// an angular velocity (rad/s), between bodies the smaller of which is held by a sphere of a radius (m).
     void begin(const Matrix3d& along, const Vector3d& surface_velocity,
                const Vector3d& surface_angular_velocity, double friction_coefficient, double radius) noexcept;
-    /// What the mobilities are worth inverted: to be called once they are set.
+    /// Computes the inverse mobilities. Call it once the mobilities are set.
     void invert() noexcept;
-    /// What the first body is given (N s).
+    /// Returns the impulse (N s) on the first body.
     [[nodiscard]] Vector3d push() const noexcept { return axes.transpose() * size.head<3>(); }
-    /// The work (J) of the surface.
+    /// Returns the work (J) of the surface.
     [[nodiscard]] double work() const noexcept;
 };
 
@@ -86,26 +87,26 @@ struct ContactBetween {
     Vector3d first_arm;                            ///< m, from the first's centre of mass
     Vector3d second_arm = Vector3d::Zero();        ///< m, from the second's
     Vector3d normal;                               ///< of length one: from the second to the first
-    double allowed_speed;                          ///< m/s, from zero on: at which the two may come closer
+    double allowed_speed;                          ///< m/s, not negative: the closing speed that is allowed
     double friction;                               ///< Coulomb's coefficient
     Vector3d surface_velocity = Vector3d::Zero();  ///< m/s: of ground or obstacle
     Vector3d surface_angular_velocity = Vector3d::Zero();  ///< rad/s
-    int obstacle = -1;                    ///< the number of the one that is met; -1: level ground
-    Vector3d impulse = Vector3d::Zero();  ///< N s: what the first was given
+    int obstacle = -1;                    ///< the number of the touched obstacle; -1: level ground
+    Vector3d impulse = Vector3d::Zero();  ///< N s: on the first
 };
 
-/// The impulses of after_impulses() on bodies that touch each other, ground and obstacles, all found
+/// Solves for the impulses of after_impulses() on bodies that touch each other, ground and obstacles, all
 /// together. Keeps its memory from call to call.
 class ContactSolver {
   public:
-    /// Changes the bodies' velocities so that no point comes closer than is allowed, and notes the impulses.
-    /// They never add energy but the work of obstacles that move: else the sum of w K w / 2 does not grow.
+    /// Changes the bodies' velocities so that no point closes faster than is allowed, and records the
+    /// impulses. They never add energy but the work of moving obstacles: the sum of w K w / 2 does not grow
+    /// otherwise.
     ///
     /// Projected Gauss-Seidel, forwards and backwards, sped up by nonsmooth nonlinear conjugate gradients:
     /// Silcowitz-Hansen, Niebe and Erleben, A nonsmooth nonlinear conjugate gradient method for interactive
-    /// contact force problems, The Visual Computer 26 (2010).
-    /// `known`: how many of the points were there in the call before, with bodies of the same inertia: what
-    /// was found for them is where this one starts from.
+    /// contact force problems, The Visual Computer 26 (2010). `known`: the number of points that the call
+    /// before had too, with bodies of the same inertia; their impulses are the initial guess.
     void solve(std::span<ContactBody> bodies, std::span<ContactBetween> points, std::size_t known = 0);
 
   private:
@@ -122,7 +123,7 @@ class ContactSolver {
 
     std::vector<Row> rows_;
     std::vector<Vector6d> start_;    ///< the bodies' velocities before
-    std::vector<Vector6d> impulse_;  ///< that each body is given
+    std::vector<Vector6d> impulse_;  ///< on each body
     double slope_ = 0.0;             ///< of the conjugate gradients: squares of the last sweep's changes
 };
 

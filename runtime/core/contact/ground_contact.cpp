@@ -7,10 +7,12 @@ namespace samara {
 namespace {
 
 // Chosen, not derived (docs/theory.md#ground): far below what a picture shows.
-constexpr double touching = 1e-5;    // gap that counts as none, over the bounding radius
-constexpr double supporting = 1e-4;  // gap of points that hold a body at rest, over the bounding radius
-constexpr double hovering = 1e-3;    // more of it, over the way that the load would move the body in a step
-constexpr double still = 1e-4;  // speed that counts as none, over what the step would give without the ground
+constexpr double touching = 1e-5;  // gap that counts as none, relative to the bounding radius
+// gap of points that hold a body at rest, relative to the bounding radius
+constexpr double supporting = 1e-4;
+constexpr double hovering = 1e-3;  // additional gap, relative to the displacement by the load in a step
+// speed that counts as none, relative to the change in a step without the ground
+constexpr double still = 1e-4;
 
 Vector6d relative_to(const Vector3d& ground_velocity, const BodyState& state) {
     Vector6d velocity = state.velocity;
@@ -18,8 +20,8 @@ Vector6d relative_to(const Vector3d& ground_velocity, const BodyState& state) {
     return velocity;
 }
 
-/// Whether a body comes to rest or stays at rest where it stood before a step. `velocity`: before it;
-/// `change`: in it, without what it stands on.
+/// Returns whether a body comes to rest, or stays at rest, where it stood before a step. `velocity`: before
+/// it; `change`: in it, without contacts.
 bool rests(const TouchingBody& body, const ContactSet& stood, double time_step, const Vector6d& velocity,
            const Vector6d& change) noexcept {
     const auto energy = [&](const Vector6d& u) { return 0.5 * u.dot(body.inertia * u); };
@@ -37,20 +39,21 @@ bool rests(const TouchingBody& body, const ContactSet& stood, double time_step, 
     return energy(after_impulses(body, stood, approach, change)) < still * still * energy(change);
 }
 
-/// Takes back what the load moved the body by in a step, as far as what it stood on was in its way. Else it
-/// would turn a little in each step that it lies, and never lie still.
+/// Removes the displacement that the load caused in a step as far as contacts opposed it. Otherwise a lying
+/// body would rotate a little in each step, and never come to rest.
 void hold_against_load(const TouchingBody& body, const ContactSet& stood, const Approach& approach,
                        const Vector6d& change, BodyState& state) noexcept {
     const Vector6d moved = 0.5 * change;
     const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved) - moved);
     if (held.isZero(0.0)) return;
     state.position += stood.to_world() * held.tail<3>();
-    const Vector3d half_turn = 0.5 * held.head<3>();
+    const Vector3d half_rotation = 0.5 * held.head<3>();
     state.orientation =
-        (state.orientation * Quaterniond(1.0, half_turn.x(), half_turn.y(), half_turn.z())).normalized();
+        (state.orientation * Quaterniond(1.0, half_rotation.x(), half_rotation.y(), half_rotation.z()))
+            .normalized();
 }
 
-/// Keeps a body out of the obstacles on its way since before the step.
+/// Keeps a body out of the obstacles on its path since before the step.
 void keep_out_of_obstacles(const TouchingBody& body, const Ground& ground, double time_step,
                            const BodyState& before, BodyState& state) noexcept {
     const BodyPlace reached = ground.in_world(state);
@@ -61,7 +64,7 @@ void keep_out_of_obstacles(const TouchingBody& body, const Ground& ground, doubl
     state.orientation = mended.orientation;
 }
 
-/// A record of body axes in the world.
+/// Returns a record of body axes in the world's axes.
 ContactRecord in_world(const ContactRecord& of_body, const Matrix3d& to_world, const Ground& ground,
                        const BodyState& state) noexcept {
     ContactRecord record = of_body;
@@ -96,7 +99,7 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
     state.at_rest = false;
     const double radius = body.contact_points.bounding_radius;
     Vector6d velocity = relative_to(ground.velocity, state);
-    // No point moves faster than this, nor twice as fast once impulses have turned the body.
+    // A bound of the points' motion: impulses may rotate the body to twice its speed.
     const double margin = 2.0 * time_step * (velocity.tail<3>().norm() + radius * velocity.head<3>().norm());
     const bool is_over_ground = state.position.z() - ground.height - radius <= margin;
     const Vector6d velocity_before = relative_to(ground.velocity - ground.gain, before);
@@ -120,7 +123,7 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
     if (rests(body, stood, time_step, velocity_before, change)) {
         state.position = before.position;
         state.orientation = before.orientation;
-        stay_on(ground, state);
+        keep_on_ground(ground, state);
         return;
     }
     const Approach approach{
@@ -145,7 +148,7 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
     if (record != nullptr && now.strongest > 0.0) record->add(in_world(now, to_world, ground, state));
 }
 
-void stay_on(const Ground& ground, BodyState& state) noexcept {
+void keep_on_ground(const Ground& ground, BodyState& state) noexcept {
     state.position += ground.travel;
     state.velocity << Vector3d::Zero(), state.orientation.conjugate() * ground.velocity;
     state.acceleration.setZero();

@@ -9,35 +9,36 @@
 namespace samara {
 namespace {
 
-// Chosen by trial: what they must give is what the tests Encounters and BroadphaseStability hold them to.
-constexpr double most_turn = 0.25;   // rad, in a part
-constexpr double most_way = 0.5;     // past another, over the smaller radius, in a part
-constexpr double most_fall = 0.005;  // from a standstill, over the radius, in a part
-constexpr int most_parts = 64;
-constexpr int most_attempts = 6;    // to find where bodies meet within a part
-constexpr double held_back = 0.25;  // of its kinetic energy, that one which stays keeps
-constexpr int most_stops =
-    24;  // in a step, times bodies: parts that end sooner, where some hit or would be held
-constexpr int most_tries = 6;  // of a part
-// In a step, times bodies. Heaps whose motion the parts can follow take up to 9,000, also at a step of 1/24
-// s.
+// Chosen by trial, so that the tests Encounters and BroadphaseStability pass.
+constexpr double most_rotation = 0.25;  // rad, in a substep
+constexpr double most_passing = 0.5;    // relative displacement of two, over the smaller radius, in a substep
+constexpr double most_fall = 0.005;     // fall from a standstill, relative to the radius, in a substep
+constexpr int most_island_substeps = 64;
+constexpr int most_attempts = 6;            // to find where bodies touch within a substep
+constexpr double kept_energy_share = 0.25;  // share of its kinetic energy that a body which stays keeps
+// in a step, times bodies: substeps that end early, where some collide or would be held back
+constexpr int most_stops = 24;
+constexpr int most_tries = 6;  // of a substep
+// In a step, times bodies. Heaps whose motion the substeps can follow take up to 9,000, also at a step of
+// 1/24 s.
 constexpr std::size_t most_work = 50000;
-constexpr std::size_t most_work_unfollowed = 500;  // where even the most parts are too few
-constexpr std::size_t work_of_point = 20;          // of an impulse found at a point, over a look at two hulls
-constexpr int most_rounds = 60;                    // in which bodies are moved apart
-constexpr double resting_way = 2e-4;               // in a step, over the radius, that counts as none
-constexpr double no_motion = 2e-5;                 // the same, which what rests is taken back by
-constexpr double still = 1e-2;  // speed that counts as none, over what the step would give without contact
-constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, over the radius
+constexpr std::size_t most_work_of_fast = 500;  // where even the most substeps are too few
+constexpr std::size_t work_of_point = 20;       // of an impulse at a point, relative to a check of two hulls
+constexpr int most_rounds = 60;                 // in which bodies are separated
+// displacement in a step, relative to the radius, that counts as none
+constexpr double resting_displacement = 2e-4;
+constexpr double no_motion = 2e-5;  // the same, which is undone for a body at rest
+constexpr double still = 1e-2;  // speed that counts as none, relative to the change in a step without contact
+constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, relative to the radius
 constexpr std::size_t most_ground_points = 12;
 
-Vector6d turned(const Quaterniond& rotation, const Vector6d& velocity) {
+Vector6d rotated(const Quaterniond& rotation, const Vector6d& velocity) {
     Vector6d result;
     result << rotation * velocity.head<3>(), rotation * velocity.tail<3>();
     return result;
 }
 
-/// Of points that are near the ground or obstacles those with the smallest gap, and with the greatest
+/// Visits, of points near the ground or obstacles, those with the smallest gap, and with the greatest
 /// distance from those before.
 template <typename Visit>
 void visit_spread(const ContactSet& near, double radius, const Visit& visit) {
@@ -66,28 +67,29 @@ void visit_spread(const ContactSet& near, double radius, const Visit& visit) {
 
 CollisionHull IslandStep::hull(std::size_t i, const BodyPlace& place) const {
     const IslandBody& island_body = island_bodies_[i];
-    // About the first of all, so that little is lost to rounding far from the origin.
+    // Relative to the first body, so that little is lost to rounding far from the origin.
     return {{&island_body.body->contact_points, place.orientation.toRotationMatrix(),
              place.position - island_bodies_.front().begin.position},
             island_body.faces};
 }
 
 double IslandStep::energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const {
-    const Vector6d own = turned(place.orientation.conjugate(), velocity);
+    const Vector6d own = rotated(place.orientation.conjugate(), velocity);
     return 0.5 * own.dot(island_bodies_[i].body->inertia * own);
 }
 
-double IslandStep::parts_wanted(std::span<const Pair> pairs, double time_step) const {
-    double parts = 1.0;
+double IslandStep::substeps_wanted(std::span<const Pair> pairs, double time_step) const {
+    double substeps = 1.0;
     const auto at_both = [&](std::size_t i, const auto& function) {
         return std::max(function(island_bodies_[i].begin_velocity), function(island_bodies_[i].end_velocity));
     };
     for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
-        const double turn = at_both(i, [](const Vector6d& u) { return u.head<3>().norm(); });
-        parts = std::max(parts, time_step * turn / most_turn);
+        const double rotation_rate = at_both(i, [](const Vector6d& u) { return u.head<3>().norm(); });
+        substeps = std::max(substeps, time_step * rotation_rate / most_rotation);
         const Vector6d change = island_bodies_[i].end_velocity - island_bodies_[i].begin_velocity;
         const double radius = island_bodies_[i].body->contact_points.bounding_radius;
-        parts = std::max(parts, std::sqrt(0.5 * time_step * change.tail<3>().norm() / (most_fall * radius)));
+        substeps =
+            std::max(substeps, std::sqrt(0.5 * time_step * change.tail<3>().norm() / (most_fall * radius)));
     }
     for (const auto& [a, b] : pairs) {
         const IslandBody& first = island_bodies_[a];
@@ -96,9 +98,9 @@ double IslandStep::parts_wanted(std::span<const Pair> pairs, double time_step) c
                                      (first.end_velocity - second.end_velocity).tail<3>().norm());
         const double radius =
             std::min(first.body->contact_points.bounding_radius, second.body->contact_points.bounding_radius);
-        parts = std::max(parts, time_step * past / (most_way * radius));
+        substeps = std::max(substeps, time_step * past / (most_passing * radius));
     }
-    return parts;
+    return substeps;
 }
 
 void IslandStep::start(double time_step) {
@@ -119,13 +121,14 @@ void IslandStep::start(double time_step) {
                           mover.own_velocity.head<3>(),
             change.tail<3>();
         mover.gain /= time_step;
-        const Vector6d momentum = island_body.body->inertia * turned(to_world.conjugate(), change);
+        const Vector6d momentum = island_body.body->inertia * rotated(to_world.conjugate(), change);
         mover.load = to_world * momentum.tail<3>() / time_step;
     }
 }
 
-/// Where a body comes from where it began, and with which velocity, if nothing loads it.
-PlacedMotion IslandStep::flown(std::size_t i, Vector6d velocity, double time) const {
+/// Returns the place and velocity after a time (s) of a body without loads that starts from its place before
+/// the substep.
+PlacedMotion IslandStep::free_motion(std::size_t i, Vector6d velocity, double time) const {
     velocity.tail<3>() -= flow_;
     PlacedMotion end = free_flight(island_bodies_[i].body->inertia, {movers_[i].before, velocity}, time);
     end.place.position += time * flow_;
@@ -133,39 +136,41 @@ PlacedMotion IslandStep::flown(std::size_t i, Vector6d velocity, double time) co
     return end;
 }
 
-/// How the velocity of a body that nothing loads changes in body axes, of which these are turned as it began.
-Vector6d IslandStep::changed_by_itself(std::size_t i, const Vector6d& velocity, double time) const {
-    const PlacedMotion end = flown(i, velocity, time);
+/// Returns the change of velocity in a time (s) of a body without loads, in body axes, rotated as they were
+/// before the substep.
+Vector6d IslandStep::free_velocity_change(std::size_t i, const Vector6d& velocity, double time) const {
+    const PlacedMotion end = free_motion(i, velocity, time);
     const Quaterniond back = movers_[i].before.orientation * end.place.orientation.conjugate();
     Vector6d change = end.velocity - velocity;
     change.head<3>() = back * end.velocity.head<3>() - velocity.head<3>();
     return change;
 }
 
-/// The velocity with what a step of the body alone gives in a time.
-Vector6d IslandStep::fed(const Mover& mover, double time) {
+/// Returns the velocity before the substep plus the change that the step of the body alone causes in a time
+/// (s).
+Vector6d IslandStep::loaded_velocity(const Mover& mover, double time) {
     Vector6d velocity = mover.velocity_before;
     velocity.head<3>() += mover.before.orientation * (time * mover.gain.head<3>());
     velocity.tail<3>() += time * mover.gain.tail<3>();
     return velocity;
 }
 
-void IslandStep::begin_part(double time_step) {
+void IslandStep::begin_substep(double time_step) {
     for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
         Mover& mover = movers_[i];
         const TouchingBody& body = *island_bodies_[i].body;
         mover.velocity_before = mover.velocity;
         mover.before = mover.place;
-        bodies_[i] = {.velocity = fed(mover, time_step),
+        bodies_[i] = {.velocity = loaded_velocity(mover, time_step),
                       .inverse_inertia = in_world(body.inverse_inertia, mover.place.orientation),
                       .radius = body.contact_points.bounding_radius};
         mover.energy_before = energy_of(i, mover.place, mover.velocity);
-        // Of what a step of the body alone gives, how its turning changes by itself is left to the way: it
-        // may turn otherwise by now.
+        // The free change of the angular velocity is left out of the change by the step of the body alone:
+        // the body may rotate otherwise by now.
         Vector6d own = mover.own_velocity;
         own.head<3>() = mover.before.orientation * own.head<3>();
-        mover.by_itself = changed_by_itself(i, own, time_step);
-        mover.alone = flown(i, bodies_[i].velocity, time_step).place;
+        mover.free_change = free_velocity_change(i, own, time_step);
+        mover.alone = free_motion(i, bodies_[i].velocity, time_step).place;
     }
 }
 
@@ -185,8 +190,8 @@ void IslandStep::find_ground(const IslandGround& ground, double time, double tim
         }
         if (ground.obstacles != nullptr && passes_near(*ground.obstacles, points, place, place, margin)) {
             add_obstacles(*ground.obstacles, points, place,
-                          turned(place.orientation.conjugate(), bodies_[i].velocity), time, time_step, margin,
-                          near);
+                          rotated(place.orientation.conjugate(), bodies_[i].velocity), time, time_step,
+                          margin, near);
         }
         if (near.empty()) continue;
         visit_spread(near, radius, [&](const NearPoint& point) {
@@ -203,9 +208,9 @@ void IslandStep::find_ground(const IslandGround& ground, double time, double tim
     }
 }
 
-void IslandStep::push(double time_step, std::size_t known) {
+void IslandStep::solve_impulses(double time_step, std::size_t known) {
     for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
-        bodies_[i].velocity = fed(movers_[i], time_step);
+        bodies_[i].velocity = loaded_velocity(movers_[i], time_step);
         movers_[i].pressed = island_bodies_[i].touched;
     }
     impulses_.solve(bodies_, points_, known);
@@ -214,8 +219,8 @@ void IslandStep::push(double time_step, std::size_t known) {
         movers_[point.first].pressed = true;
         if (point.second != ContactBetween::none) movers_[point.second].pressed = true;
     }
-    // What is pushed moves with the velocity after the part, what is not halfway between: those that touch
-    // must move alike.
+    // A body with impulses moves with the velocity after the substep, others with that halfway: bodies that
+    // touch must move alike.
     for (bool spreads = true; spreads;) {
         spreads = false;
         for (const Near& near : near_) {
@@ -232,10 +237,10 @@ void IslandStep::push(double time_step, std::size_t known) {
 void IslandStep::move(double time_step, bool ends_step) {
     for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
         Mover& mover = movers_[i];
-        // Nothing met: half of the loads before, half after, as the step of a body alone has it.
+        // Without contact: half of the loads before, half after, as in the step of a body alone.
         Vector6d later = Vector6d::Zero();
-        if (!mover.pressed) later = 0.5 * (bodies_[i].velocity - mover.velocity_before - mover.by_itself);
-        const PlacedMotion end = flown(i, bodies_[i].velocity - mover.by_itself - later, time_step);
+        if (!mover.pressed) later = 0.5 * (bodies_[i].velocity - mover.velocity_before - mover.free_change);
+        const PlacedMotion end = free_motion(i, bodies_[i].velocity - mover.free_change - later, time_step);
         later.head<3>() = end.place.orientation * (mover.before.orientation.conjugate() * later.head<3>());
         mover.place = end.place;
         mover.velocity = end.velocity + later;
@@ -249,7 +254,8 @@ void IslandStep::move(double time_step, bool ends_step) {
     }
 }
 
-void IslandStep::part_from_ground(const IslandGround& ground, double time, double time_step, bool& moved) {
+void IslandStep::separate_from_ground(const IslandGround& ground, double time, double time_step,
+                                      bool& moved) {
     for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
         Mover& mover = movers_[i];
         const ContactPoints& points = island_bodies_[i].body->contact_points;
@@ -271,8 +277,9 @@ void IslandStep::part_from_ground(const IslandGround& ground, double time, doubl
     }
 }
 
-/// Takes energy (J) out of a body's turning, and where that is not enough out of all its motion.
-void IslandStep::slow(std::size_t i, double most) {
+/// Reduces a body's kinetic energy to at most `most` (J): by its rotation, and where that does not suffice by
+/// all of its motion.
+void IslandStep::limit_energy(std::size_t i, double most) {
     Mover& mover = movers_[i];
     Vector6d linear = mover.velocity;
     linear.head<3>().setZero();
@@ -289,8 +296,8 @@ void IslandStep::slow(std::size_t i, double most) {
     }
 }
 
-void IslandStep::pay() {
-    double owed = 0.0;
+void IslandStep::balance_energy() {
+    double excess = 0.0;
     double left = 0.0;
     for (std::size_t i = 0; i < island_bodies_.size(); ++i) {
         Mover& mover = movers_[i];
@@ -298,30 +305,30 @@ void IslandStep::pay() {
         island_bodies_[i].touched = true;
         double most = mover.energy;
         if (mover.held > 0) {
-            // No more than its weight did on the way.
+            // At most the work of its weight on its path.
             const double work = mover.load.dot(mover.place.position - mover.before.position);
             most = std::min(most, std::max(0.0, mover.energy_before + work));
-            // Slower they find a way: else the same would happen in the next part.
-            if (mover.held == 2) most *= held_back;
+            // Slower bodies find a free path; otherwise the same would happen in the next substep.
+            if (mover.held == 2) most *= kept_energy_share;
         } else {
             most -= std::max(0.0, -mover.load.dot(mover.shift));
         }
-        owed += std::max(0.0, -most);
+        excess += std::max(0.0, -most);
         most = std::max(0.0, most);
-        // The inertia turns with the body, and that gives nothing either.
+        // The inertia rotates with the body, which must give no energy either.
         const double energy = energy_of(i, mover.place, mover.velocity);
-        if (energy > most) slow(i, most);
+        if (energy > most) limit_energy(i, most);
         left += std::min(energy, most);
     }
-    // What some cannot pay the others do.
-    if (owed == 0.0) return;
-    const double share = std::sqrt(std::max(0.0, 1.0 - owed / std::max(left, owed)));
+    // The other bodies give up the energy that some lack.
+    if (excess == 0.0) return;
+    const double share = std::sqrt(std::max(0.0, 1.0 - excess / std::max(left, excess)));
     for (Mover& mover : movers_) {
         if (mover.pressed) mover.velocity *= share;
     }
 }
 
-void IslandStep::note(double time) {
+void IslandStep::record_contacts(double time) {
     for (const ContactBetween& point : points_) {
         if (point.impulse.isZero(0.0)) continue;
         const auto add = [&](std::size_t i, std::size_t other, double sign, const Vector3d& arm) {
@@ -349,10 +356,10 @@ void IslandStep::settle(double time_step) {
         const double radius = island_body.body->contact_points.bounding_radius;
         const double begun = energy_of(i, island_body.begin, island_body.begin_velocity);
         const double left = energy_of(i, island_body.begin, movers_[i].velocity);
-        island_body.rests = !movers_[i].overlaps &&
-                            begun < resting_energy * movers_[i].load.norm() * radius &&
-                            left < still * still * energy_of(i, island_body.begin, change) &&
-                            time_step * speed_of_points(movers_[i].velocity, radius) < resting_way * radius;
+        island_body.rests =
+            !movers_[i].overlaps && begun < resting_energy * movers_[i].load.norm() * radius &&
+            left < still * still * energy_of(i, island_body.begin, change) &&
+            time_step * speed_of_points(movers_[i].velocity, radius) < resting_displacement * radius;
         if (island_body.record != nullptr && movers_[i].record.strongest > 0.0)
             island_body.record->add(movers_[i].record);
         const double moved =
@@ -364,84 +371,85 @@ void IslandStep::settle(double time_step) {
     }
 }
 
-/// Whether the step has done all the work that it does.
+/// Returns whether the step has spent all of its work.
 bool IslandStep::is_spent() const {
     return work_ > most_work_;
 }
 
-/// Whether impulses turned a body by so much in a part that its ends say little of what is between.
-bool IslandStep::turned_far(double time_step) const {
+/// Returns whether a body with impulses rotated so far in a substep that its ends say little about its path
+/// between.
+bool IslandStep::rotated_far(double time_step) const {
     return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
-        return mover.pressed && time_step * mover.velocity.head<3>().norm() > 2.0 * most_turn;
+        return mover.pressed && time_step * mover.velocity.head<3>().norm() > 2.0 * most_rotation;
     });
 }
 
-/// Moves the bodies for a part of the step, as they meet each other, ground and obstacles.
-void IslandStep::try_part(std::span<const Pair> pairs, const IslandGround& ground, double time, double part,
-                          bool ends_step, bool may_stop) {
-    begin_part(part);
+/// Moves the bodies for a substep with contacts between each other, ground and obstacles.
+void IslandStep::try_substep(std::span<const Pair> pairs, const IslandGround& ground, double time,
+                             double substep, bool ends_step, bool may_stop) {
+    begin_substep(substep);
     points_.clear();
-    find_pairs(pairs, part, may_stop);
-    if (is_spent()) points_.clear();  // those that may meet are held back
-    find_ground(ground, time, part);
+    find_pairs(pairs, substep, may_stop);
+    if (is_spent()) points_.clear();  // bodies that may touch are held back
+    find_ground(ground, time, substep);
     std::size_t known = 0;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        push(part, known);
+        solve_impulses(substep, known);
         known = points_.size();
         work_ += work_of_point * known;
-        move(part, ends_step);
-        if (is_spent() || (may_stop && free_of_hits() < 1.0) || !find_passages(part)) return;
+        move(substep, ends_step);
+        if (is_spent() || (may_stop && share_free_of_hits() < 1.0) || !find_passages(substep)) return;
     }
 }
 
-void IslandStep::part_all(const IslandGround& ground, double time, double part) {
+void IslandStep::separate_all(const IslandGround& ground, double time, double substep) {
     bool moved = true;
     for (int round = 0; round < most_rounds && moved && (round == 0 || !is_spent()); ++round) {
         moved = false;
-        part_pairs(part, round, moved);
-        part_from_ground(ground, time, part, moved);
+        separate_pairs(substep, round, moved);
+        separate_from_ground(ground, time, substep, moved);
     }
 }
 
-void IslandStep::take_back() {
+void IslandStep::restore() {
     for (Mover& mover : movers_) {
         mover.place = mover.before;
         mover.velocity = mover.velocity_before;
     }
 }
 
-/// Takes the step in so many parts; false where they should be more.
-bool IslandStep::take_parts(std::span<const Pair> pairs, const IslandGround& ground, double time_step,
-                            int parts) {
+/// Takes the step in so many substeps; false where there should be more.
+bool IslandStep::take_substeps(std::span<const Pair> pairs, const IslandGround& ground, double time_step,
+                               int substeps) {
     start(time_step);
-    double longest = time_step / parts;
+    double longest = time_step / substeps;
     int stops = 0;
     for (double begun = 0.0; begun < time_step;) {
         const double time = ground.time + begun;
         const double rest = time_step - begun;
         if (is_spent()) longest = rest;
-        // Not a sliver at the end.
-        double part = rest <= longest * (1.0 + 1e-9) ? rest : longest;
+        // Avoids a tiny last substep.
+        double substep = rest <= longest * (1.0 + 1e-9) ? rest : longest;
         for (int tries = 1;; ++tries) {
             const bool may_stop =
                 tries < most_tries && stops * static_cast<int>(movers_.size()) < most_stops && !is_spent();
-            try_part(pairs, ground, time, part, part == rest, may_stop);
-            const double free = may_stop ? free_of_hits() : 1.0;
+            try_substep(pairs, ground, time, substep, substep == rest, may_stop);
+            const double free = may_stop ? share_free_of_hits() : 1.0;
             if (free == 1.0) {
-                if (2 * parts <= most_parts && !is_spent() && turned_far(part)) return false;
-                part_all(ground, time, part);
-                if (!may_stop || is_spent() || all_come_through()) break;
-                longest = 0.5 * part;
+                if (2 * substeps <= most_island_substeps && !is_spent() && rotated_far(substep)) return false;
+                separate_all(ground, time, substep);
+                if (!may_stop || is_spent() || all_are_free()) break;
+                longest = 0.5 * substep;
             }
-            part *= free < 1.0 ? free : 0.5;
+            substep *= free < 1.0 ? free : 0.5;
             ++stops;
-            take_back();
+            restore();
         }
-        note(time + part);
+        record_contacts(time + substep);
         hold_back();
-        pay();
-        for (Mover& mover : movers_) mover.own_velocity += part * mover.gain;
-        begun = part == rest ? time_step : begun + part;
+        balance_energy();
+        for (Mover& mover : movers_) mover.own_velocity += substep * mover.gain;
+        begun = substep == rest ? time_step : begun + substep;
     }
     return true;
 }
@@ -450,11 +458,11 @@ void IslandStep::take(std::span<IslandBody> island_bodies, std::span<const Pair>
                       const IslandGround& ground, double time_step) {
     island_bodies_ = island_bodies;
     flow_ = ground.flow;
-    const double wanted = parts_wanted(pairs, time_step);
+    const double wanted = substeps_wanted(pairs, time_step);
     work_ = 0;
-    most_work_ = island_bodies.size() * (wanted > most_parts ? most_work_unfollowed : most_work);
-    int parts = static_cast<int>(std::ceil(std::min(wanted, static_cast<double>(most_parts))));
-    while (!take_parts(pairs, ground, time_step, parts)) parts *= 2;
+    most_work_ = island_bodies.size() * (wanted > most_island_substeps ? most_work_of_fast : most_work);
+    int substeps = static_cast<int>(std::ceil(std::min(wanted, static_cast<double>(most_island_substeps))));
+    while (!take_substeps(pairs, ground, time_step, substeps)) substeps *= 2;
     settle(time_step);
 }
 

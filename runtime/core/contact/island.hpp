@@ -18,19 +18,19 @@ namespace samara {
 /// A body among others that it may touch. Velocities are (omega, v) of the centre of mass, in world axes and
 /// relative to the ground.
 struct IslandBody {
-    const TouchingBody* body;  ///< what it touches with, at its size
+    const TouchingBody* body;  ///< its hull and inertia, at its size
     const std::vector<HullFace>* faces;
-    int number;               ///< of the flight: what records of contacts call it
-    BodyPlace begin;          ///< before the step
-    Vector6d begin_velocity;  ///< the same
-    BodyPlace end;            ///< after it; at first as if nothing were in its way
-    Vector6d end_velocity;    ///< the same
-    bool touched = false;     ///< whether anything was, so that the end is another than it was at first
-    bool rests = false;       ///< whether it lies still at the end
-    ContactRecord* record = nullptr;  ///< gets what it met; null: not asked for
+    int number;                       ///< its number in the simulation, for records of contacts
+    BodyPlace begin;                  ///< before the step
+    Vector6d begin_velocity;          ///< likewise
+    BodyPlace end;                    ///< after it; at first without contact
+    Vector6d end_velocity;            ///< likewise
+    bool touched = false;             ///< whether it touched anything, so that its end has changed
+    bool rests = false;               ///< whether it is at rest at the end
+    ContactRecord* record = nullptr;  ///< receives its contacts; null: not asked for
 };
 
-/// What bodies of the island may touch besides each other.
+/// The surroundings that bodies of the island may touch.
 struct IslandGround {
     std::optional<double> height;            ///< m: of level ground
     const ObstacleSet* obstacles = nullptr;  ///< null: none
@@ -38,18 +38,19 @@ struct IslandGround {
     Vector3d flow = Vector3d::Zero();        ///< m/s: of the fluid, relative to the ground
 };
 
-/// How far (m) two bodies that touch stay apart, over the smaller bounding radius: what keeps the plane
+/// The distance that two touching bodies keep, relative to the smaller bounding radius: it keeps the plane
 /// between them well defined. Chosen, far below what a picture shows.
 inline constexpr double skin = 1e-3;
-/// What must be left of it at the least.
+/// The least share of the skin that must remain.
 inline constexpr double closest = 0.05;
 
-/// No point of a body within a radius (m) of its centre of mass is faster (m/s). `velocity`: (omega, v).
+/// Returns an upper bound of the speed (m/s) of the points of a body within a radius (m) of its centre of
+/// mass. `velocity`: (omega, v).
 inline double speed_of_points(const Vector6d& velocity, double radius) {
     return velocity.tail<3>().norm() + radius * velocity.head<3>().norm();
 }
 
-/// A matrix of (omega, v), such as an inertia, from body axes to the world's.
+/// Returns a matrix of (omega, v), such as an inertia, rotated from body axes to the world's.
 inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation) {
     Matrix6d to_world = Matrix6d::Zero();
     to_world.topLeftCorner<3, 3>() = to_world.bottomRightCorner<3, 3>() = orientation.toRotationMatrix();
@@ -58,90 +59,92 @@ inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation
 
 /// Steps bodies that may touch each other. Keeps its memory from step to step.
 ///
-/// The step is cut into parts, in which no body turns by more than a quarter of a radian, passes another by
-/// more than half its radius or would fall from a standstill by more than a two-hundredth of it. Where two
-/// that come fast from afar hit, the part ends, and they are struck there and then: so are the first of a
-/// step, the fewer the more bodies there are. In each part the bodies get their share of what the step does
-/// to them alone, and joint impulses (contact_impulses.hpp), at the points where they may meet within the
-/// part, allow each gap to close and no more; with the velocities that these leave the bodies fly freely
-/// (free_flight.hpp). So much is Moreau's stepping: whatever the step, contact takes energy and gives none.
-/// Two are pushed at one place of the world, so that they keep their momentum and angular momentum. Where two
-/// come through each other at other points, those where they first touch on their way are added, and the
-/// impulses found anew. What turning still brings too close is moved apart, and where that does not keep two
-/// from passing through each other the part is halved, or both stop on their way; what they win by it is paid
-/// for in kinetic energy.
+/// The step is cut into substeps, in which no body rotates by more than a quarter of a radian, passes another
+/// by more than half its radius or would fall from a standstill by more than a two-hundredth of it. Where two
+/// fast bodies from afar collide, the substep ends, and their impulses act there and then: so do the first
+/// collisions of a step, the fewer the more bodies there are. In each substep the bodies get their share of
+/// the change in their steps alone, and joint impulses (contact_impulses.hpp), at the points where they may
+/// touch within the substep, allow each gap to close and no more; with the resulting velocities the bodies
+/// move freely (free_flight.hpp). This is Moreau's stepping: whatever the step, contact takes energy and
+/// gives none. The impulses on two bodies act at one place of the world, so that momentum and angular
+/// momentum are conserved. Where two would pass through each other at other points, the points where they
+/// first touch on their paths are added, and the impulses solved for again. Bodies that rotation still brings
+/// too close are separated, and where that does not keep two from passing through each other the substep is
+/// halved, or both stop on their paths; the energy that they gain by it is taken from their motion.
 ///
-/// A step does so much work for each body and no more: several times what heaps take, and little where even
-/// the most parts are too few to follow the motion, as beside a vortex that throws bodies about by many of
-/// their sizes. Where it is spent, those that may meet stay for the rest of the step where they have come to.
+/// The work of a step is limited for each body: to several times that of heaps, and to little where even the
+/// most substeps are too few to follow the motion, as beside a vortex that throws bodies about by many of
+/// their sizes. Once it is spent, bodies that may touch stay where they are for the rest of the step.
 class IslandStep {
   public:
     using Pair = std::pair<std::size_t, std::size_t>;
 
-    /// `pairs`: of bodies of the island that may touch within the step of `time_step` (s), the lower number
-    /// first.
+    /// Takes one step of `time_step` (s). `pairs`: of bodies of the island that may touch within it, the
+    /// lower number first.
     void take(std::span<IslandBody> island_bodies, std::span<const Pair> pairs, const IslandGround& ground,
               double time_step);
 
   private:
     struct Mover {
-        BodyPlace before, place;             ///< when the part began, and now
-        BodyPlace alone;                     ///< where it would be after the part if nothing were in its way
-        Vector6d velocity_before, velocity;  ///< when the part began, and now
-        Vector6d own_velocity;  ///< when the part began, if nothing had met it: omega in body axes
-        Vector6d gain;          ///< of it a second, so that spin keeps its energy
-        Vector6d by_itself;     ///< of this what comes without loads in the part: world axes as it began
-        Vector3d load;          ///< N: what pulls it
-        double energy_before, energy;  ///< J: when the part began, and after the impulses
-        ContactRecord record;          ///< in the step
-        Vector3d shift;                ///< m: by which it was moved apart
-        bool pressed;                  ///< whether anything pushed it, in this part or before
-        bool overlaps;                 ///< another, when the step ended: it is still to come out
-        int held;  ///< 1: it stopped on its way, 2: it stayed where the part began; 0: neither
+        BodyPlace before, place;             ///< when the substep began, and now
+        BodyPlace alone;                     ///< after the substep, without contact
+        Vector6d velocity_before, velocity;  ///< when the substep began, and now
+        Vector6d own_velocity;               ///< when the substep began, without contact: omega in body axes
+        /// 1/s: its rate of change by the step alone, constant in body axes so that spin keeps its energy
+        Vector6d gain;
+        Vector6d free_change;  ///< of it the change without loads in the substep: world axes as it began
+        Vector3d load;         ///< N: the load on it
+        double energy_before, energy;  ///< J: when the substep began, and after the impulses
+        ContactRecord record;          ///< of the step
+        Vector3d shift;                ///< m: its displacement by separation
+        bool pressed;   ///< whether an impulse or a separation acted on it, in this substep or before
+        bool overlaps;  ///< whether it overlaps another when the step ends: it is still to be separated
+        int held;       ///< 1: it stopped on its path, 2: it stayed where the substep began; 0: neither
     };
-    /// Two that may meet in a part.
+    /// Two bodies that may touch in a substep.
     struct Near {
         std::size_t first, second;
         Vector3d normal;
         double gap;
         double apart;  ///< m: the gap that they keep
-        bool waits;    ///< whether they are to meet where they do, not before
+        bool waits;    ///< whether they collide where their paths do, not before
 
-        /// Whether there was a gap when the part began: what overlapped, since it started so, is to come out.
+        /// Returns whether there was a gap when the substep began. Bodies that overlapped then are separated.
         [[nodiscard]] bool began_separated() const { return gap > 0.0; }
-        /// The gap (m) that must be left.
+        /// Returns the least gap (m) that must remain.
         [[nodiscard]] double least() const;
     };
 
     void find_overlaps();
     void keep_angular_momentum(const Near& near, const Vector3d& first_shift, const Vector3d& second_shift);
-    [[nodiscard]] double parts_wanted(std::span<const Pair> pairs, double time_step) const;
-    bool take_parts(std::span<const Pair> pairs, const IslandGround& ground, double time_step, int parts);
-    [[nodiscard]] bool turned_far(double time_step) const;
+    [[nodiscard]] double substeps_wanted(std::span<const Pair> pairs, double time_step) const;
+    bool take_substeps(std::span<const Pair> pairs, const IslandGround& ground, double time_step,
+                       int substeps);
+    [[nodiscard]] bool rotated_far(double time_step) const;
     [[nodiscard]] bool is_spent() const;
     void start(double time_step);
-    void begin_part(double time_step);
-    void try_part(std::span<const Pair> pairs, const IslandGround& ground, double time, double part,
-                  bool ends_step, bool may_stop);
-    void part_all(const IslandGround& ground, double time, double part);
-    void take_back();
-    [[nodiscard]] bool all_come_through() const;
+    void begin_substep(double time_step);
+    void try_substep(std::span<const Pair> pairs, const IslandGround& ground, double time, double substep,
+                     bool ends_step, bool may_stop);
+    void separate_all(const IslandGround& ground, double time, double substep);
+    void restore();
+    [[nodiscard]] bool all_are_free() const;
     void find_pairs(std::span<const Pair> pairs, double time_step, bool may_stop);
-    [[nodiscard]] double free_of_hits() const;
+    [[nodiscard]] double share_free_of_hits() const;
     void find_ground(const IslandGround& ground, double time, double time_step);
-    void push(double time_step, std::size_t known);
+    void solve_impulses(double time_step, std::size_t known);
     void move(double time_step, bool ends_step);
     bool find_passages(double time_step);
-    void part_pairs(double time_step, int round, bool& moved);
-    void part_from_ground(const IslandGround& ground, double time, double time_step, bool& moved);
+    void separate_pairs(double time_step, int round, bool& moved);
+    void separate_from_ground(const IslandGround& ground, double time, double time_step, bool& moved);
     void hold_back();
-    void slow(std::size_t i, double most);
-    void pay();
-    void note(double time);
+    void limit_energy(std::size_t i, double most);
+    void balance_energy();
+    void record_contacts(double time);
     void settle(double time_step);
-    [[nodiscard]] PlacedMotion flown(std::size_t i, Vector6d velocity, double time) const;
-    [[nodiscard]] Vector6d changed_by_itself(std::size_t i, const Vector6d& velocity, double time) const;
-    [[nodiscard]] static Vector6d fed(const Mover& mover, double time);
+    [[nodiscard]] PlacedMotion free_motion(std::size_t i, Vector6d velocity, double time) const;
+    [[nodiscard]] Vector6d free_velocity_change(std::size_t i, const Vector6d& velocity, double time) const;
+    [[nodiscard]] static Vector6d loaded_velocity(const Mover& mover, double time);
     [[nodiscard]] CollisionHull hull(std::size_t i, const BodyPlace& place) const;
     [[nodiscard]] bool passes_by(const Near& near) const;
     [[nodiscard]] bool separated_before(const Near& near, const Vector3d& normal, double gap) const;
@@ -157,7 +160,7 @@ class IslandStep {
     std::vector<ContactBetween> points_;
     std::vector<Near> near_;
     ContactSolver impulses_;
-    mutable std::size_t work_ = 0;  ///< done in the step: pairs of hulls looked at, points pushed at
+    mutable std::size_t work_ = 0;  ///< spent in the step: pairs of hulls checked, points with impulses
     std::size_t most_work_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// How two bodies of the island pass each other, or meet, within a part of a step.
+// The passages and collisions of two bodies of the island within a substep.
 
 #include <algorithm>
 
@@ -10,18 +10,22 @@
 namespace samara {
 namespace {
 
-// Chosen by trial: what they must give is what the tests Encounters and BroadphaseStability hold them to.
-constexpr double finest_piece = 1e-3;  // of a way, to which the place is found where two meet
-constexpr double quick =
-    0.02;  // way of two in a part, over the radius, from which their hit is met where it is
-constexpr double parted = 0.2;            // over the skin, to where those that come too close are moved
-constexpr double most_shift = 0.06;       // over the radius, to part those that turning brought together
-constexpr double most_separation = 0.5;   // over the skin, by which those that overlap are moved in a part
-constexpr double separation_speed = 1.0;  // radii a second at which bodies that overlapped are moved apart
+// Chosen by trial, so that the tests Encounters and BroadphaseStability pass.
+constexpr double finest_share = 1e-3;  // precision of the place where two touch, relative to their path
+// displacement of two in a substep, relative to the radius, from which they collide where their paths do
+constexpr double fast_travel = 0.02;
+// relative to the skin: the distance to which bodies that come too close are separated
+constexpr double separated_to = 0.2;
+// relative to the radius: the most displacement that separates two which rotation brought together
+constexpr double most_shift = 0.06;
+// relative to the skin: the displacement that reduces an overlap in a substep
+constexpr double most_removed_overlap = 0.5;
+// 1/s, in radii: the speed at which overlapping bodies are separated
+constexpr double separation_speed = 1.0;
 
 }  // namespace
 
-/// `may_stop`: whether those that are fast are to meet where they do.
+/// Finds the pairs that may touch in a substep. `may_stop`: whether fast bodies collide where their paths do.
 void IslandStep::find_pairs(std::span<const Pair> pairs, double time_step, bool may_stop) {
     near_.clear();
     const auto fastest = [&](std::size_t i) {
@@ -33,7 +37,7 @@ void IslandStep::find_pairs(std::span<const Pair> pairs, double time_step, bool 
         fastest_of_all = std::max(fastest_of_all, fastest(i));
     for (const auto& [a, b] : pairs) {
         const double apart = skin * std::min(bodies_[a].radius, bodies_[b].radius);
-        // Impulses may stop either, or turn it twice as fast; and one that others strike comes as far as
+        // Impulses may stop either, or double its rotation; and a body that others strike comes as far as
         // they.
         const double reach = 2.0 * time_step * (fastest(a) + fastest(b)) + 2.0 * apart;
         const double reach_if_struck = 4.0 * time_step * fastest_of_all + 2.0 * apart;
@@ -46,7 +50,7 @@ void IslandStep::find_pairs(std::span<const Pair> pairs, double time_step, bool 
         if (now.gap > reach_if_struck) continue;
         const double travel = time_step * (fastest(a) + fastest(b));
         const bool waits = may_stop && now.gap > 2.0 * apart &&
-                           travel > quick * std::min(bodies_[a].radius, bodies_[b].radius);
+                           travel > fast_travel * std::min(bodies_[a].radius, bodies_[b].radius);
         near_.push_back({a, b, now.normal, now.gap, apart, waits});
         if (waits || now.gap > reach || passes_by(near_.back())) continue;
         add_points(near_.back(), hull_contact(first, second, reach), 0.0, time_step);
@@ -60,8 +64,8 @@ BodyPlace IslandStep::place_at(std::size_t i, double share) const {
             mover.before.orientation.slerp(share, mover.place.orientation)};
 }
 
-/// Of two that meet at a share of their ways. Where they do not as the part begins, what turning adds to the
-/// way that velocities make is taken from the gap.
+/// Adds the contact points of two that touch at a share of their paths. Where they do not touch as the
+/// substep begins, the part of the path by rotation beyond that by the velocities is subtracted from the gap.
 void IslandStep::add_points(const Near& near, const HullContact& contact, double share, double time_step) {
     const auto arm = [&](std::size_t i, const Vector3d& point) {
         const BodyPlace there = place_at(i, share);
@@ -81,11 +85,11 @@ void IslandStep::add_points(const Near& near, const HullContact& contact, double
         double gap = contact.normal.dot(movers_[near.first].before.position + first_arm -
                                         movers_[near.second].before.position - second_arm);
         if (share > 0.0) {
-            const double turned_by = contact.normal.dot(beyond_velocity(near.first, first_arm) -
-                                                        beyond_velocity(near.second, second_arm));
-            gap += std::min(0.0, turned_by);
+            const double by_rotation = contact.normal.dot(beyond_velocity(near.first, first_arm) -
+                                                          beyond_velocity(near.second, second_arm));
+            gap += std::min(0.0, by_rotation);
         }
-        // At one place of the world, so that no angular momentum is lost between the two.
+        // Both arms at one place of the world, so that angular momentum is conserved.
         const Vector3d across = 0.5 * (movers_[near.second].before.position + second_arm -
                                        movers_[near.first].before.position - first_arm);
         first_arm += across;
@@ -100,26 +104,26 @@ void IslandStep::add_points(const Near& near, const HullContact& contact, double
     }
 }
 
-/// Whether two that would be beyond their plane after the part, left alone, are then parted by another that
-/// parts them before as well.
+/// Returns whether two that, left alone, would be beyond their plane after the substep are then separated by
+/// another plane that separates them before as well.
 bool IslandStep::passes_by(const Near& near) const {
     if (near.gap <= near.apart) return false;
     const CollisionHull first = hull(near.first, movers_[near.first].alone);
     const CollisionHull second = hull(near.second, movers_[near.second].alone);
-    if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // it may come to, otherwise
+    if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // others may bring them there
     const PairSeparation later = pair_separation(first, second, near.apart);
     ++work_;
     return !later.overlap && separated_before(near, later.normal, near.apart) && later.gap >= near.apart;
 }
 
-/// Whether a plane parted two by a gap when the part began.
+/// Returns whether a plane separated two by a gap when the substep began.
 bool IslandStep::separated_before(const Near& near, const Vector3d& normal, double gap) const {
     return gap_along(hull(near.first, movers_[near.first].before).hull,
                      hull(near.second, movers_[near.second].before).hull, normal) >= gap;
 }
 
-/// How much of their ways, up to 1, two surely come by without passing through each other: at both ends of
-/// each piece of it one plane leaves them a gap. Where all work is spent, none.
+/// Returns the share of their paths, up to 1, that two surely complete without passing through each other: at
+/// both ends of each piece of it one plane leaves them a gap. Zero where all work is spent.
 double IslandStep::free_share(const Near& near) const {
     if (is_spent()) return 0.0;
     ++work_;
@@ -132,7 +136,7 @@ double IslandStep::free_share(const Near& near) const {
     Vector3d normal = near.normal;
     double share = 0.0;
     double piece = 1.0;
-    while (share < 1.0 && piece >= finest_piece) {
+    while (share < 1.0 && piece >= finest_share) {
         ++work_;
         const double next_share = std::min(1.0, share + piece);
         const auto [next_first, next_second] = hulls(next_share);
@@ -157,8 +161,9 @@ double IslandStep::Near::least() const {
     return std::min(closest * apart, 0.5 * gap);
 }
 
-/// How much of their ways those surely come by that are to meet where they do; 1 where none of them meet.
-double IslandStep::free_of_hits() const {
+/// Returns the least share of their paths that fast pairs surely complete before they collide; 1 where none
+/// of them collide.
+double IslandStep::share_free_of_hits() const {
     double free = 1.0;
     for (const Near& near : near_) {
         if (!near.waits) continue;
@@ -168,8 +173,8 @@ double IslandStep::free_of_hits() const {
     return free;
 }
 
-/// Whether none are to be held back.
-bool IslandStep::all_come_through() const {
+/// Returns whether no body must be held back.
+bool IslandStep::all_are_free() const {
     return std::all_of(near_.begin(), near_.end(),
                        [&](const Near& near) { return !near.began_separated() || free_share(near) >= 1.0; });
 }
@@ -189,7 +194,7 @@ bool IslandStep::find_passages(double time_step) {
     return found;
 }
 
-void IslandStep::part_pairs(double time_step, int round, bool& moved) {
+void IslandStep::separate_pairs(double time_step, int round, bool& moved) {
     for (const Near& near : near_) {
         Mover& a = movers_[near.first];
         Mover& b = movers_[near.second];
@@ -204,10 +209,11 @@ void IslandStep::part_pairs(double time_step, int round, bool& moved) {
                             hull(near.second, place_at(near.second, free)), near.apart);
         const Vector3d normal = began_separated && there.overlap ? near.normal : there.normal;
         const double gap = gap_along(hull(near.first, a.place).hull, hull(near.second, b.place).hull, normal);
-        double travel = parted * near.apart - gap;
+        double travel = separated_to * near.apart - gap;
         if (travel <= 0.0 || (began_separated && travel > most_shift * radius)) continue;
         if (!began_separated)
-            travel = std::min({travel, most_separation * near.apart, time_step * separation_speed * radius});
+            travel =
+                std::min({travel, most_removed_overlap * near.apart, time_step * separation_speed * radius});
         const auto yields = [&](std::size_t i) {
             return normal.dot(bodies_[i].inverse_inertia.bottomRightCorner<3, 3>() * normal);
         };
@@ -222,39 +228,40 @@ void IslandStep::part_pairs(double time_step, int round, bool& moved) {
     }
 }
 
-/// Gives two that were moved apart the angular momentum that their moving took, as a turning of both as one
-/// body about where they are: it changes nothing between them. It takes energy as a rule; else it is let be.
+/// Gives two that were separated the angular momentum that their displacement took, as a rotation of both as
+/// one body about their place, which changes nothing between them. Nothing is done where it would add energy.
 void IslandStep::keep_angular_momentum(const Near& near, const Vector3d& first_shift,
                                        const Vector3d& second_shift) {
-    struct Part {
+    struct Member {
         std::size_t number;
         Vector3d shift;
-        Matrix6d by_rotation = Matrix6d::Identity();  ///< velocity by that of both as one body
+        Matrix6d by_rotation = Matrix6d::Identity();  ///< maps the velocity of both as one body to its own
         double gain = 0.0;                            ///< J
     };
-    Part parts[] = {{near.first, first_shift}, {near.second, second_shift}};
+    Member pair[] = {{near.first, first_shift}, {near.second, second_shift}};
     const Vector3d about = movers_[near.first].place.position;
     Matrix6d inertia_of_both = Matrix6d::Zero();
     Vector6d missed = Vector6d::Zero();
-    for (Part& part : parts) {
-        const Mover& mover = movers_[part.number];
-        const Matrix6d inertia = in_world(island_bodies_[part.number].body->inertia, mover.place.orientation);
-        part.by_rotation.bottomLeftCorner<3, 3>() = -skew(mover.place.position - about);
-        inertia_of_both += part.by_rotation.transpose() * inertia * part.by_rotation;
-        missed.head<3>() -= part.shift.cross((inertia * mover.velocity).tail<3>());
+    for (Member& member : pair) {
+        const Mover& mover = movers_[member.number];
+        const Matrix6d inertia =
+            in_world(island_bodies_[member.number].body->inertia, mover.place.orientation);
+        member.by_rotation.bottomLeftCorner<3, 3>() = -skew(mover.place.position - about);
+        inertia_of_both += member.by_rotation.transpose() * inertia * member.by_rotation;
+        missed.head<3>() -= member.shift.cross((inertia * mover.velocity).tail<3>());
     }
     const Vector6d rotation = Eigen::LLT<Matrix6d>(inertia_of_both).solve(missed);
     double gain = 0.0;
-    for (Part& part : parts) {
-        const Mover& mover = movers_[part.number];
-        part.gain = energy_of(part.number, mover.place, mover.velocity + part.by_rotation * rotation) -
-                    energy_of(part.number, mover.place, mover.velocity);
-        gain += part.gain;
+    for (Member& member : pair) {
+        const Mover& mover = movers_[member.number];
+        member.gain = energy_of(member.number, mover.place, mover.velocity + member.by_rotation * rotation) -
+                      energy_of(member.number, mover.place, mover.velocity);
+        gain += member.gain;
     }
     if (gain > 0.0) return;
-    for (const Part& part : parts) {
-        movers_[part.number].velocity += part.by_rotation * rotation;
-        movers_[part.number].energy += part.gain;
+    for (const Member& member : pair) {
+        movers_[member.number].velocity += member.by_rotation * rotation;
+        movers_[member.number].energy += member.gain;
     }
 }
 
@@ -280,7 +287,7 @@ void IslandStep::hold_back() {
             const double share = free_share(near);
             if (share >= 1.0) continue;
             const BodyPlace places[] = {place_at(near.first, share), place_at(near.second, share)};
-            // As far as they come freely; where that is in another's way, not at all.
+            // Both go as far as they come freely, or not at all where that is in another's path.
             for (Mover* mover : {&a, &b}) {
                 mover->held = mover->held == 0 && share > 0.0 ? 1 : 2;
                 mover->place = mover->held == 2 ? mover->before : places[mover == &a ? 0 : 1];

@@ -3,7 +3,7 @@
 namespace samara {
 namespace {
 
-/// Lengths times `length`, times by its square.
+/// Scales lengths by `length` and times by its square.
 BodyState in_units(const BodyState& state, double length) noexcept {
     const double angular = 1.0 / (length * length);
     const double linear = length * angular;

@@ -3,7 +3,7 @@
 namespace samara {
 namespace {
 
-/// About the body's radius: L/2, with the sphere of its surface.
+/// Returns about the body's radius: L/2, exact for a sphere.
 double reach_of(const ImmersedBody& body) {
     return 0.5 * body.length;
 }
@@ -22,7 +22,7 @@ Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surrounding
     for (std::size_t axis = 0; axis < 3; ++axis) {
         block.place[axis][0] = in_world[static_cast<Eigen::Index>(axis)];
     }
-    constexpr double any_duration = 1e-3;  // it shapes the rate alone, which nobody asks for
+    constexpr double any_duration = 1e-3;  // it affects the rate alone, which is not used here
     surroundings.wind->blow(time, {reach_of(body), any_duration}, 1, block);
     return column(block.velocity, 0);
 }
@@ -40,7 +40,7 @@ void BodyWind::sample(const void* context, std::uint64_t step, std::size_t count
     const double time = 0.5 * (begin + step_time(self.start_, self.time_step_, step + 1));
     const Vector3d displacement = flow_displacement(surroundings, time);
     const Vector3d flow = flow_velocity(surroundings, time);
-    // Where centroids are was foretold halfway through the step in the flow's frame: there in the world.
+    // The places are predicted for mid-step in the flow's frame; here they are in the world.
     WindBlock block = {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t lane = 0; lane < count; ++lane) {
@@ -58,7 +58,7 @@ void BodyWind::sample(const void* context, std::uint64_t step, std::size_t count
             gradient(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) =
                 block.gradient[i][lane];
         }
-        // The fluid's own acceleration, which presses on a body as if it were the fluid.
+        // The fluid's own acceleration, whose pressure acts on the body as on the displaced fluid.
         const Vector3d acceleration = column(block.rate, lane) + gradient * (flow + velocity);
         const Vector3d half_change = 0.5 * self.time_step_ * acceleration;
         const Vector3d rotation =

@@ -10,22 +10,22 @@
 
 namespace samara {
 
-/// The wind's velocity (m/s, world axes) beyond the undisturbed flow that a body meets at a place of the
-/// flow's frame (m) and a time (s); zero where there is none.
+/// Returns the wind's velocity (m/s, world axes) at a body beyond the undisturbed flow, at a place of the
+/// flow's frame (m) and a time (s); zero where there is no wind.
 Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surroundings, const Vector3d& place,
                        double time) noexcept;
 
-/// What bodies of one kind meet of the wind of their surroundings in each step.
+/// Samples the wind of the surroundings for the bodies of one group in each step.
 class BodyWind {
   public:
-    /// Body and surroundings must outlive the meeting. The flight began at `start` (s).
+    /// `body` and `surroundings` must outlive this object. The simulation began at `start` (s).
     BodyWind(const ImmersedBody& body, const Surroundings& surroundings, double start,
              double time_step) noexcept
         : body_(&body), surroundings_(&surroundings), start_(start), time_step_(time_step) {}
 
-    /// Null where there is no wind.
+    /// Returns the source for the kernel; null where there is no wind.
     [[nodiscard]] kernel::WindSource source() const noexcept;
-    /// Whether a caller's wind gave nothing but numbers so far.
+    /// Returns whether all velocities of a caller's wind were finite so far.
     [[nodiscard]] bool is_sound() const noexcept { return !unsound_.load(std::memory_order_relaxed); }
 
   private:

@@ -5,7 +5,7 @@
 namespace samara {
 namespace {
 
-// Of loads by drag and lift coefficients, which have no other damping of a spin.
+// The rotational drag of loads by drag and lift coefficients, which have no other damping of rotation.
 constexpr double rotational_drag_beside_coefficients = 1.3;
 
 double half_length_of(const Body& body) {
@@ -17,8 +17,8 @@ double half_length_of(const Body& body) {
 }
 
 struct ProjectedArea {
-    Matrix3d areas;     // projected along the principal axes (m^2)
-    double unevenness;  // 0 for a sphere, whose turning changes nothing in its stream, to 1 for a thin sheet
+    Matrix3d areas;     // m^2: projected along the principal axes
+    double unevenness;  // 0 for a sphere, whose rotation does not change its flow, to 1 for a thin sheet
 };
 
 ProjectedArea projected_area_of(const Body& body) {

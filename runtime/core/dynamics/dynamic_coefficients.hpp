@@ -4,8 +4,8 @@
 
 namespace samara {
 
-/// What bodies have in common, by their free falls in full CFD (docs/studies/falls): T over the added mass,
-/// t, C_m, C_s, C_w and C_r.
+/// The coefficients that bodies have in common, by their free falls in full CFD (docs/studies/falls): T
+/// relative to the added mass, t, C_m, C_s, C_w and C_r.
 inline constexpr double usual_transport = 1.0;
 inline constexpr double usual_rotational_transport = 1.0;
 inline constexpr double usual_drag_in_motion = 0.5;
@@ -13,36 +13,37 @@ inline constexpr double usual_drag_in_spin = 0.3;
 inline constexpr double usual_rotational_drag = 0.7;
 inline constexpr double usual_rotational_drag_in_spin = 0.7;
 
-/// The same beside loads of the surface, which all bodies share; chosen on the reference falls together with
-/// the pressure's numbers (docs/surface-loads.md).
+/// The coefficients that all bodies share beside loads of the surface; chosen on the reference falls together
+/// with the constants of the pressure (docs/surface-loads.md).
 struct SurfaceMotion {
-    double transport = 0.72;        ///< T over the added mass
-    double spin_lift = 1.67;        ///< and besides, alike in all axes, over a third of the added mass' trace
-    double drag_in_motion = 1.86;   ///< C_m
-    double drag_in_spin = 0.57;     ///< C_s
-    double rotational_drag = 0.02;  ///< C_w
+    double transport = 0.72;  ///< T relative to the added mass
+    double spin_lift = 1.67;  ///< added to T, equal in all axes, relative to a third of the added mass' trace
+    double drag_in_motion = 1.86;           ///< C_m
+    double drag_in_spin = 0.57;             ///< C_s
+    double rotational_drag = 0.02;          ///< C_w
     double rotational_drag_in_spin = 1.66;  ///< C_r
 };
 
-/// The defaults for a body whose file holds none: guided by free falls of spheroids and a 1:2:4 ellipsoid in
-/// OpenFOAM (docs/theory gives the figures and what they miss). Scaled by the body's own projected areas and
-/// its rotational drag tensor.
+/// Returns the defaults for a body whose file holds none, guided by free falls of spheroids and a 1:2:4
+/// ellipsoid in OpenFOAM (docs/theory gives their errors), scaled by the body's own projected areas and its
+/// rotational drag tensor.
 DynamicCoefficients default_dynamic_coefficients(const Body& body);
 
-/// The numbers that all bodies share beside loads of the surface, scaled by the body's own added mass,
-/// projected areas and rotational drag tensor. Without a Kirchhoff tensor nothing is transported.
+/// Returns the coefficients that all bodies share beside loads of the surface, scaled by the body's own added
+/// mass, projected areas and rotational drag tensor. Without a Kirchhoff tensor the transport is zero.
 DynamicCoefficients surface_dynamic_coefficients(const Body& body, const SurfaceMotion& motion = {});
 
-/// Rotational drag alone, for loads by drag and lift coefficients: the same C_w D, and no other term.
+/// Returns rotational drag alone, for loads by drag and lift coefficients: C_w D, and no other term.
 DynamicCoefficients rotational_drag_alone(const Body& body);
 
-/// None: a body whose flow is that of a steady translation at every instant, but for the creeping turn.
+/// Returns no coefficients: the flow of the body is that of a steady translation at every instant, but for
+/// the moment of creeping rotation.
 DynamicCoefficients no_dynamic_coefficients(const Body& body);
 
-/// A: the areas projected along the body's principal axes (m^2), as a tensor in body axes.
+/// Returns A, the areas projected along the body's principal axes (m^2), as a tensor in body axes.
 Matrix3d projected_area_tensor(const Body& body);
 
-/// D = 1/2 the integral over the surface of (r x n)(r x n)^T dA (m^4), r from the centroid: symmetric,
+/// Returns D, 1/2 the integral over the surface of (r x n)(r x n)^T dA (m^4), r from the centroid: symmetric,
 /// positive semidefinite, zero for a sphere.
 Matrix3d rotational_drag_tensor(const Surface& surface, const Vector3d& centroid);
 

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/body/mass_check.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/body_check.hpp"
 #include "samara/core/dynamics/dynamic_coefficients.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/core/surface/surface_patches.hpp"
@@ -20,7 +20,7 @@
 namespace samara {
 namespace {
 
-/// Blocks about the centre of mass: diag(I, m 1).
+/// Returns the body's inertia about the centre of mass: diag(I, m 1).
 Matrix6d body_inertia(const MassProperties& mass) {
     Matrix6d inertia = Matrix6d::Zero();
     inertia.topLeftCorner<3, 3>() = mass.inertia;
@@ -59,7 +59,7 @@ void require_surface_loads(const Body& body, const BodyPhysics& physics, const s
                     name));
 }
 
-/// The tables that the steps read: of the body's bake, or made of its surface's loads.
+/// Returns the tables that the steps read: those of the body file, or those made of its surface loads.
 std::optional<LoadTables> tables_of(const Body& body, const BodyPhysics& physics, double length) {
     std::optional<LoadTables> tables;
     if (physics.loads == Loads::surface) tables = as_tables(*body.surface_loads, length);
@@ -68,7 +68,7 @@ std::optional<LoadTables> tables_of(const Body& body, const BodyPhysics& physics
     return at_reynolds_number(*tables, *physics.table_reynolds_number);
 }
 
-/// projected_area() in all directions of the map, with each triangle's area vector worked out once.
+/// Returns projected_area() in all directions of the map, with each triangle's area vector computed once.
 std::vector<double> projected_areas(const Surface& surface) {
     Eigen::MatrixX3d area_vectors(static_cast<Eigen::Index>(surface.triangle_count()), 3);
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
@@ -81,8 +81,8 @@ std::vector<double> projected_areas(const Surface& surface) {
     return areas;
 }
 
-// The square of wake_formation_lengths times the extent along a direction: that of the ellipsoid with the
-// body's second moments.
+// Returns the square of wake_formation_lengths times the extent along a direction: that of the ellipsoid with
+// the body's second moments.
 Matrix3d squared_formation_length(const VolumeMoments& moments) {
     const PrincipalValues principal = principal_values(moments.second_moments);
     const Vector3d squared_extents = (20.0 / moments.volume * principal.values).cwiseMax(0.0);
@@ -90,22 +90,23 @@ Matrix3d squared_formation_length(const VolumeMoments& moments) {
     return principal.directions * squares.asDiagonal() * principal.directions.transpose();
 }
 
-// Second moments are alike within this, relative to the larger.
+// Second moments are equal within this, relative to the larger.
 constexpr double alike = 0.02;
 
-// ImmersedBody's: about the principal axes across which the other two moments are alike.
+// Returns ImmersedBody::spin_about_symmetry: about the principal axes across which the other two moments are
+// equal.
 Matrix3d spin_about_symmetry(const VolumeMoments& moments) {
     const PrincipalValues principal = principal_values(moments.second_moments);
-    Vector3d unseen;
+    Vector3d spun_axes;
     for (Eigen::Index i = 0; i < 3; ++i) {
         const double a = principal.values[(i + 1) % 3];
         const double b = principal.values[(i + 2) % 3];
-        unseen[i] = std::abs(a - b) <= alike * std::max(a, b) ? 1.0 : 0.0;
+        spun_axes[i] = std::abs(a - b) <= alike * std::max(a, b) ? 1.0 : 0.0;
     }
-    return principal.directions * unseen.asDiagonal() * principal.directions.transpose();
+    return principal.directions * spun_axes.asDiagonal() * principal.directions.transpose();
 }
 
-/// What separated flow lacks of the fluid's momentum goes with that momentum, where the scene leaves it out.
+/// Removes the transport of a momentum that the scene leaves out.
 DynamicCoefficients without_momentum(DynamicCoefficients coefficients, const BodyPhysics& physics) {
     if (physics.added_mass) return coefficients;
     coefficients.transport.setZero();
@@ -124,13 +125,13 @@ DynamicCoefficients dynamic_coefficients_of(const Body& body, const BodyPhysics&
     return without_momentum(std::move(coefficients), physics);
 }
 
-/// ImmersedBody's.
+/// Returns ImmersedBody::roll_drag.
 Matrix3d roll_drag_of(const Body& body, const BodyPhysics& physics) {
     if (physics.loads != Loads::table || physics.dynamic == Dynamic::none) return Matrix3d::Zero();
     return usual_rotational_drag * rotational_drag_tensor(body.surface, body.moments.centroid);
 }
 
-/// rho_f K_fluid; zero where the scene leaves it out.
+/// Returns rho_f K_fluid; zero where the scene leaves it out.
 Matrix6d fluid_inertia_of(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
                           const std::string& name) {
     if (!physics.added_mass) return Matrix6d::Zero();
@@ -213,7 +214,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
 
 namespace {
 
-/// The checks of one body, whose name leads every message.
+/// Checks of one body, whose name leads every message.
 class NamedChecks {
   public:
     explicit NamedChecks(std::string_view name) : name_(name) {}
@@ -327,6 +328,20 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     if (!body.dynamic || physics.loads != Loads::table || physics.dynamic != Dynamic::of_body) return;
     const std::string error = error_of(body.dynamic->values);
     if (!error.empty()) throw Error(fmt::format("body '{}': dynamic.{}", name, error));
+}
+
+std::shared_ptr<const ImmersedBody> PreparedBodies::get(const Body& body, const BodyPhysics& physics,
+                                                        const Fluid& fluid, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+        return entry.fluid_density == fluid.density && entry.viscosity == fluid.viscosity &&
+               entry.physics == physics;
+    });
+    if (found != entries_.end()) return found->body;
+    auto prepared = std::make_shared<const ImmersedBody>(make_immersed_body(body, physics, fluid, name));
+    if (entries_.size() == most_) entries_.erase(entries_.begin());
+    entries_.push_back({physics, fluid.density, fluid.viscosity, prepared});
+    return prepared;
 }
 
 }  // namespace samara

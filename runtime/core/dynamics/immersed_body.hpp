@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,14 +16,14 @@
 
 namespace samara {
 
-/// What of a body in a fluid its contacts ask for; body axes about the centre of mass, SI units.
+/// The part of a body in a fluid that its contacts depend on; body axes about the centre of mass, SI units.
 struct TouchingBody {
     ContactPoints contact_points;
     Matrix6d inertia = Matrix6d::Identity();          ///< K = K_body + rho_f K_fluid, order (omega, v)
-    Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1: of an ImmersedBody by prepare()
+    Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1; of an ImmersedBody set by prepare()
 };
 
-/// A body in a fluid, made ready for the time steps: constant while it moves. Body axes are the shape file's,
+/// A body in a fluid, prepared for the time steps: constant while it moves. Body axes are the shape file's,
 /// about the centre of mass unless said otherwise; SI units. Where a member is set by hand, prepare() must
 /// follow.
 struct ImmersedBody : TouchingBody {
@@ -31,8 +33,8 @@ struct ImmersedBody : TouchingBody {
     double fluid_density = 0.0;                  ///< kg/m^3
     double viscosity = 0.0;                      ///< dynamic, Pa s
     Vector3d center_of_mass = Vector3d::Zero();  ///< m, shape axes from the shape's origin
-    Vector3d center_of_buoyancy =
-        Vector3d::Zero();  ///< m, from the centre of mass to the centroid of the volume
+    /// m, from the centre of mass to the centroid of the volume
+    Vector3d center_of_buoyancy = Vector3d::Zero();
     Matrix3d own_inertia = Matrix3d::Identity();  ///< of the body alone about the centre of mass (kg m^2)
     Matrix6d to_centroid = Matrix6d::Identity();  ///< X: (omega, v) at the centre of mass -> at the centroid
     Matrix3d added_mass = Matrix3d::Zero();       ///< rho_f M (kg)
@@ -40,16 +42,17 @@ struct ImmersedBody : TouchingBody {
     Matrix3d added_coupling = Matrix3d::Zero();   ///< rho_f C, its block of (omega, v) (kg m)
     double length = 1.0;                          ///< L = sqrt(S/pi) (m)
     double reference_area = 0.0;                  ///< A = pi L^2/4 (m^2)
-    Matrix3d projected_area_tensor =
-        Matrix3d::Zero();  ///< m^2, body axes: projected areas along the principal axes
-    /// m^2, body axes: d.(squared_formation_length d) is the square of the way in which a wake forms behind a
-    /// body that goes in the direction d (docs/theory, "A wake that forms").
+    /// m^2, body axes: projected areas along the principal axes
+    Matrix3d projected_area_tensor = Matrix3d::Zero();
+    /// m^2, body axes: d.(squared_formation_length d) is the square of the distance over which a wake forms
+    /// behind a body that moves in the direction d (docs/theory, "A wake that forms").
     Matrix3d squared_formation_length = Matrix3d::Zero();
-    /// The part of an angular velocity that the flow does not see: about axes across which the body reaches
-    /// equally far, as a body of revolution's own.
+    /// Projects an angular velocity onto the part that the flow does not see: about axes across which the
+    /// body reaches equally far, as the axis of a body of revolution.
     Matrix3d spin_about_symmetry = Matrix3d::Zero();
-    double rotation_scale = 0.0;  ///< sqrt of the largest ratio of added-mass difference to inertia (1/m):
-                                  ///< with |v| the rate at which the Munk moment turns the body
+    /// sqrt of the largest ratio of added-mass difference to inertia (1/m): with |v| the rate at which the
+    /// Munk moment rotates the body
+    double rotation_scale = 0.0;
 
     Loads loads = Loads::none;
     CoefficientLoads coefficients;  ///< where loads are coefficients; normal always set
@@ -58,36 +61,61 @@ struct ImmersedBody : TouchingBody {
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
-    /// m^4, body axes: what the rotational drag of `dynamic` is at least about the direction of motion
-    /// (docs/theory, "Rotation about the direction of motion"); zero beside loads that know no such term.
+    /// m^4, body axes: the least rotational drag of `dynamic` about the direction of motion (docs/theory,
+    /// "Rotation about the direction of motion"); zero beside loads without such a term.
     Matrix3d roll_drag = Matrix3d::Zero();
-    std::vector<SteadyPatch> patches{SteadyPatch()};  ///< of the surface; one stands for the whole
+    std::vector<SteadyPatch> patches{SteadyPatch()};  ///< of the surface; one alone is the whole
 
     Turbulence turbulence = Turbulence::none;
     double turbulent_kinetic_energy = 0.0;  ///< m^2/s^2, where turbulence is constant
     double dissipation_rate = 0.0;          ///< m^2/s^3, likewise
     Langevin langevin = Langevin::wake;
 
-    // Of all the above, as inverse_inertia, by prepare().
+    // Derived from all members above, as inverse_inertia, by prepare().
     StepConstants constants;
 };
 inline constexpr int projection_subdivisions = 16;
 
-/// What the steps need of the members.
+/// Returns the constants of the steps, derived from the members.
 StepConstants step_constants(const ImmersedBody& body);
-/// Works it out, and keeps it.
+/// Computes the derived members: inverse_inertia and constants.
 void prepare(ImmersedBody& body);
 
-/// Puts body, mass and fluid together. Without added mass, K_fluid is zero and the coefficients T and t with
-/// it. `name` is what messages call the body. Throws Error where the body lacks what its physics asks for
-/// (the Kirchhoff tensor; tables: the message names the command that makes them), where a number is not
+/// Returns the body with this physics in a fluid. Without added mass K_fluid is zero, and the coefficients T
+/// and t with it. `name` is the body's name in messages. Throws Error where the body lacks what its physics
+/// needs (the Kirchhoff tensor; tables: the message names the command that makes them), where a number is not
 /// finite or out of its range (the message names the member), and where the inertia is not that of any body.
 ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
                                 const std::string& name = "body");
 
 /// Throws Error, one line that names the body and the member, where a number that make_immersed_body needs is
-/// not finite or not in its range, or where tables or surface contradict themselves. What the body lacks
-/// altogether (Kirchhoff tensor, tables) is no fault here.
+/// not finite or not in its range, or where tables or surface contradict themselves. A Kirchhoff tensor or
+/// tables that are missing altogether are no error here.
 void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fluid, const std::string& name);
+
+/// A cache of the bodies that were prepared last from one body. Simulations and groups that differ only in
+/// names and starts share them: preparing many takes the time and memory of one. Safe to call from several
+/// threads.
+class PreparedBodies {
+  public:
+    /// Keeps the `most` bodies that were made last.
+    explicit PreparedBodies(std::size_t most = 64) : most_(most) {}
+    /// Returns make_immersed_body() of the body, computed once for equal physics and fluid. The name is that
+    /// of the first caller. Throws as make_immersed_body() does.
+    [[nodiscard]] std::shared_ptr<const ImmersedBody> get(const Body& body, const BodyPhysics& physics,
+                                                          const Fluid& fluid, const std::string& name);
+
+  private:
+    struct Entry {
+        BodyPhysics physics;
+        double fluid_density;
+        double viscosity;
+        std::shared_ptr<const ImmersedBody> body;
+    };
+
+    std::size_t most_;
+    std::mutex mutex_;
+    std::vector<Entry> entries_;  ///< the oldest first
+};
 
 }  // namespace samara

@@ -4,41 +4,42 @@
 #include <cmath>
 #include <cstddef>
 
-#include "samara/core/base/symmetric_matrix.hpp"
-#include "samara/core/body/surface_elements.hpp"
+#include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/surface_loads.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/core/surface/surface_patches.hpp"
 
 namespace samara {
 namespace {
 
-// A patch keeps so much of the drag of its share of the area: no patch is pushed along its path.
+// The least share of its drag that a patch keeps, so that no patch is pushed along its path.
 constexpr double least_drag = 0.1;
 
 Vector3d area_of(const PatchFace& face) {
     return 0.5 * (face.corners[1] - face.corners[0]).cross(face.corners[2] - face.corners[0]);
 }
 
-/// How far faces lie from a place, and how they stand to a turn about it.
+/// The distances of faces from a place, and their resistance to a rotation about it.
 struct Spread {
-    double square = 0.0;                  ///< integral of the squared distance over the area
-    Matrix3d turning = Matrix3d::Zero();  ///< of (x cross n)(x cross n)^T
+    double square = 0.0;                   ///< m^4: the integral of the squared distance over the area
+    Matrix3d rotation = Matrix3d::Zero();  ///< the integral of (x cross n)(x cross n)^T
 };
 
 void add(const PatchFace& face, const Vector3d& center, Spread& spread) {
     const Vector3d area = area_of(face);
     const double size = area.norm();
     if (!(size > 0.0)) return;
-    // The middles of the edges weigh a quadratic function exactly.
+    // The middles of the edges integrate a quadratic function exactly.
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector3d place = 0.5 * (face.corners[i] + face.corners[(i + 1) % 3]) - center;
         const Vector3d arm = place.cross(area / size);
         spread.square += size / 3.0 * place.squaredNorm();
-        spread.turning += size / 3.0 * arm * arm.transpose();
+        spread.rotation += size / 3.0 * arm * arm.transpose();
     }
 }
 
-/// m^power of a positive semidefinite m, whose least eigenvalues count as this much of the largest.
+/// Returns m^power of a positive semidefinite matrix m. Eigenvalues below a given share of the largest are
+/// raised to it.
 Matrix3d power_of(const Matrix3d& m, double power) {
     constexpr double least = 1e-9;
     const PrincipalValues principal = principal_values(m);
@@ -48,7 +49,7 @@ Matrix3d power_of(const Matrix3d& m, double power) {
 }
 
 void set_what_is_left(const std::vector<SurfacePatch>& cut, DividedSurface& divided) {
-    Vector3d middle = Vector3d::Zero();  // of the surface, from the centroid of the volume
+    Vector3d middle = Vector3d::Zero();  // the middle of the surface, from the centroid of the volume
     double area = 0.0;
     for (const SurfacePatch& patch : cut) {
         for (const PatchFace& face : patch.faces) {
@@ -69,10 +70,11 @@ void set_what_is_left(const std::vector<SurfacePatch>& cut, DividedSurface& divi
         }
     }
     divided.reach_within = std::sqrt(within.square / about_middle.square);
-    divided.rotation_within = power_of(within.turning, 0.5) * power_of(about_centroid.turning, -0.5);
+    divided.rotation_within = power_of(within.rotation, 0.5) * power_of(about_centroid.rotation, -0.5);
 }
 
-/// The pressure's force on each patch in a steady translation along the direction, over rho U^2 A / 2.
+/// Returns the pressure's force on each patch in a steady translation along the direction, in units of rho
+/// U^2 A / 2.
 std::vector<Vector3d> pushes(const std::vector<SurfacePatch>& cut,
                              const std::vector<SurfaceElement>& elements, const Vector3d& direction) {
     std::vector<double> pressures;
@@ -88,8 +90,8 @@ std::vector<Vector3d> pushes(const std::vector<SurfacePatch>& cut,
     return forces;
 }
 
-/// By how much the patches' forces are off their shares of the whole's, which adds up to none; as much of it
-/// as leaves each a drag at all Reynolds numbers. `drag`: the whole's least, along the direction.
+/// Returns the differences of the patches' forces from their shares of the whole, which add up to zero, as
+/// far as each patch keeps a drag at all Reynolds numbers. `drag`: the whole's least, along the direction.
 std::vector<Vector3d> departures(const std::vector<SteadyPatch>& patches, std::vector<Vector3d> forces,
                                  const Vector3d& direction, double drag) {
     Vector3d whole = Vector3d::Zero();
@@ -126,7 +128,7 @@ void set_forces(const std::vector<SurfacePatch>& cut, const SurfaceLoads& loads,
     }
 }
 
-/// In lengths of L about the centroid of the volume.
+/// Returns the body's surface in units of L about the centroid of the volume.
 Surface about_centroid(const Body& body) {
     const double length = reference_length(body.moments.surface_area);
     Surface surface = body.surface;
@@ -138,7 +140,7 @@ std::vector<SurfacePatch> cut_surface(const Body& body, int count) {
     return surface_patches(body.surface_loads ? body.surface_loads->surface : about_centroid(body), count);
 }
 
-/// The patches without forces of their own.
+/// Returns the patches without forces of their own.
 DividedSurface divided_by(const std::vector<SurfacePatch>& cut, const Body& body) {
     const double length = reference_length(body.moments.surface_area);
     DividedSurface divided;

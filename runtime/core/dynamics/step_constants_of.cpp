@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "samara/core/dynamics/immersed_body.hpp"
-#include "samara/core/kernel/wake_noise.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 
 namespace samara {
 namespace {
@@ -16,7 +16,7 @@ Square<double> square(const Matrix3d& m) {
     return {triple(m.row(0)), triple(m.row(1)), triple(m.row(2))};
 }
 
-/// Of a matrix that is symmetric but for rounding.
+/// Converts a matrix that is symmetric but for rounding.
 Square<double> symmetric(const Matrix3d& m) {
     return square(0.5 * (m + m.transpose()));
 }
@@ -31,13 +31,13 @@ void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable& tab
     }
 }
 
-/// The table with the numbers of entry i as row(i) gives them.
+/// Returns the table whose entry i has the numbers row(i).
 template <std::size_t width, class Row>
 DirectionTable direction_table(const LoadTables& tables, const Row& row) {
     DirectionTable result;
     result.width = static_cast<int>(width);
     result.side = tables.map_size();
-    result.turned = !tables.axes.isIdentity(0.0);
+    result.rotated = !tables.axes.isIdentity(0.0);
     result.to_map_axes = square(tables.axes.transpose());
     set_planes(tables.reynolds_numbers, result);
     for (std::size_t entry = 0; entry < tables.entries.size(); ++entry) {
@@ -49,7 +49,7 @@ DirectionTable direction_table(const LoadTables& tables, const Row& row) {
     return result;
 }
 
-/// l: a power of two, near L.
+/// Returns l: a power of two, near L.
 double length_scale(const ImmersedBody& body) {
     return std::exp2(std::round(std::log2(body.length)));
 }
@@ -84,7 +84,7 @@ DirectionTable turbulence_table(const ImmersedBody& body) {
     });
 }
 
-/// The area over A by direction: the projected one, or a given one everywhere.
+/// Returns the area relative to A by direction: the projected one, or a given one everywhere.
 DirectionTable area_table(const ImmersedBody& body) {
     DirectionTable table;
     table.width = 8;
@@ -107,15 +107,15 @@ void set_inertia(const ImmersedBody& body, StepConstants& c) {
     const Matrix6d inertia = from_centroid.transpose() * body.inertia * from_centroid;
     const double length = length_scale(body);
     const double mass = inertia.bottomRightCorner<3, 3>().trace() / 3.0;
-    const Matrix3d turning = inertia.topLeftCorner<3, 3>() / (mass * length * length);
+    const Matrix3d angular = inertia.topLeftCorner<3, 3>() / (mass * length * length);
     const Matrix3d moving = inertia.bottomRightCorner<3, 3>() / mass;
     c.mass_scale = mass;
-    c.inertia_angular = symmetric(turning);
+    c.inertia_angular = symmetric(angular);
     c.off_center = !body.center_of_buoyancy.isZero(0.0);
     c.coupled = !inertia.topRightCorner<3, 3>().isZero(0.0);
     c.inertia_coupling = square(inertia.topRightCorner<3, 3>() / (mass * length));
     c.directed_inertia = symmetric(moving - Matrix3d::Identity());
-    c.inverse_angular = triple(turning.diagonal().cwiseInverse());
+    c.inverse_angular = triple(angular.diagonal().cwiseInverse());
     c.inverse_linear = triple(moving.diagonal().cwiseInverse());
     c.weight = (body.mass - body.fluid_density * body.volume) / (mass * length);
     c.weight_moment = triple(-body.mass / (mass * length * length) * body.center_of_buoyancy);
@@ -127,7 +127,7 @@ double reynolds_factor(const ImmersedBody& body) {
     return body.length * length_scale(body) * body.fluid_density / body.viscosity;
 }
 
-/// Less its isotropic part.
+/// Returns the tensor less its isotropic part.
 Matrix3d directed(const Matrix3d& tensor) {
     return tensor - tensor.trace() / 3.0 * Matrix3d::Identity();
 }
@@ -142,8 +142,8 @@ void set_transport(const ImmersedBody& body, double mass, double length, StepCon
     c.coupling_transport = square(share / length * body.added_coupling);
 }
 
-/// What the rotational drag of falls, in the mean over the axes, lacks of the least about the direction of
-/// motion (m^4).
+/// Returns the difference by which the rotational drag of falls, in the mean over the axes, lies below the
+/// least about the direction of motion (m^4).
 Matrix3d lacking_roll_drag(const ImmersedBody& body) {
     if (body.roll_drag.isZero(0.0)) return Matrix3d::Zero();
     const double share = body.dynamic.rotational_drag.trace() / body.roll_drag.trace();
@@ -155,12 +155,12 @@ void set_loads(const ImmersedBody& body, StepConstants& c) {
     const double length = length_scale(body);
     const double half_density = 0.5 * body.fluid_density;
     const DynamicCoefficients& dynamic = body.dynamic;
-    const double tow = half_density * body.reference_area * length / mass;
+    const double steady_factor = half_density * body.reference_area * length / mass;
     c.loads = body.loads;
-    c.steady_factor = tow;
+    c.steady_factor = steady_factor;
     c.reynolds_factor = reynolds_factor(body);
     c.half_length = dynamic.half_length / length;
-    // The numbers of the loads of the surface were chosen on whole falls, without a start of their own.
+    // The constants of the loads of the surface were chosen on whole falls, without a start of their own.
     c.wake_forms = body.loads != Loads::coefficients && !body.tables->stokes_throughout;
     c.squared_formation_length = symmetric(body.squared_formation_length / (length * length));
     c.settling_over_formation = wake_formation_lengths / dynamic.settling_length;
@@ -180,11 +180,11 @@ void set_loads(const ImmersedBody& body, StepConstants& c) {
     }
     const double creeping = std::numbers::pi * body.viscosity * body.length / mass;
     const double ratio = body.length / length;
-    c.creeping_turn = creeping * ratio * ratio;
+    c.creeping_rotation = creeping * ratio * ratio;
     if (body.loads != Loads::coefficients) {
         c.creeping_drag = 3.0 * creeping;
-        c.potential_transport =
-            symmetric(directed(body.added_mass - body.fluid_density * dynamic.transport) / (mass * tow));
+        c.potential_transport = symmetric(directed(body.added_mass - body.fluid_density * dynamic.transport) /
+                                          (mass * steady_factor));
         c.creeping_fades = body.tables->stokes_throughout ? 0.0 : 1.0 / body.tables->reynolds_numbers.front();
         c.loads_by_direction = load_table(body);
     } else {

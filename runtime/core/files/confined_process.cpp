@@ -9,11 +9,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <new>
+#include <string_view>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/seccomp.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -22,12 +25,13 @@
 #include <unistd.h>
 
 #include "samara/core/base/error.hpp"
+#include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/sandbox.hpp"
 
 namespace samara {
 namespace {
 
-// Each message is a kind, the number of bytes that follow, and these.
+// A message consists of its type, the number of bytes that follow, and the bytes.
 enum class MessageType : char { bytes, error, done };
 
 struct Header {
@@ -35,7 +39,7 @@ struct Header {
     std::uint64_t size;
 };
 
-constexpr int left_early = 3;  // exit status where the work ended the process
+constexpr int left_early = 3;  // exit status where `work` ended the process
 
 double bytes_of_memory() {
     return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
@@ -51,7 +55,7 @@ void send_message(int pipe, MessageType type, std::string_view bytes) {
         while (size > 0) {
             const ssize_t written = ::write(pipe, data, size);
             if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) ::_exit(1);  // nobody waits any more
+            if (written <= 0) ::_exit(1);  // the parent has gone
             data += written;
             size -= static_cast<std::size_t>(written);
         }
@@ -81,7 +85,7 @@ void limit(__rlimit_resource resource, double most, double grace = 0.0) {
     ::setrlimit(resource, &now);
 }
 
-// What the process holds already stays: sanitizers map terabytes.
+// Returns the data that the process holds already, which the limit adds to: sanitizers map terabytes.
 double bytes_of_data_now() {
     std::ifstream stream("/proc/self/statm");
     double pages = 0.0;
@@ -90,12 +94,12 @@ double bytes_of_data_now() {
 }
 
 void enter_limits(const ConfinedLimits& limits) {
-    constexpr double grace = 5.0;  // after SIGXCPU, which tells this end from others, comes SIGKILL
+    constexpr double grace = 5.0;  // s: from SIGXCPU, which tells this end from others, to SIGKILL
     limit(RLIMIT_CPU, std::ceil(limits.cpu_seconds), grace);
     limit(RLIMIT_DATA, bytes_of_data_now() + limits.memory * bytes_of_memory());
     limit(RLIMIT_FSIZE, 0.0);
     limit(RLIMIT_CORE, 0.0);
-    // Whatever this program does at these, there they end the child.
+    // These signals end the child, whatever handlers this program has set.
     for (const int signal :
          {SIGXCPU, SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSYS, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
         ::signal(signal, SIG_DFL);
@@ -106,7 +110,7 @@ void enter_limits(const ConfinedLimits& limits) {
                             const std::function<void(const SendBytes&)>& work) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
     if (::getppid() != parent) ::_exit(1);
-    // Ahead of what the parent has registered, whose files are not to be touched from here.
+    // Runs before the handlers that the parent has registered, which must not touch its files from here.
     std::atexit([] { ::_exit(left_early); });
     try {
         leave_streams_and_files(pipe);
@@ -134,7 +138,7 @@ void enter_limits(const ConfinedLimits& limits) {
 
 // ---- in the parent ----
 
-// The child, which does not outlive this.
+// Owns the child process, which ends with this object at the latest.
 class Child {
   public:
     explicit Child(pid_t process) : process_(process) {}
@@ -166,8 +170,8 @@ class Child {
     pid_t process_;
 };
 
-// Reads messages until the child has closed its end. Throws Error where it sends more, waits for longer or
-// takes longer than it may.
+// Reads messages until the child has closed its end. Throws Error where it sends more, or takes longer, than
+// its limits allow.
 class Messages {
   public:
     Messages(int pipe, const Child& child, std::string label, const ConfinedLimits& limits)
@@ -176,7 +180,8 @@ class Messages {
     Messages(const Messages&) = delete;
     Messages& operator=(const Messages&) = delete;
 
-    // Whether there was one. It grows as bytes arrive, whatever size it claims.
+    // Reads one message; false where there is none. `bytes` grows as they arrive, whatever size the message
+    // claims.
     bool next(MessageType& type, std::string& bytes) {
         Header header{};
         bytes.clear();
@@ -208,11 +213,12 @@ class Messages {
         return true;
     }
 
-    // Until there is something to read. Bytes that trickle in are no work, and work that trickles has an end.
+    // Waits until there is something to read. Bytes that trickle in do not count as work, and work that
+    // trickles has a limit.
     void wait() {
         using Clock = std::chrono::steady_clock;
         constexpr double least_work = 1e-3;  // s
-        constexpr double busiest = 20.0;     // processes at work for each processor
+        constexpr double busiest = 20.0;     // the most processes at work on each processor
         const double longest = limits_.idle_seconds + busiest * limits_.cpu_seconds;
         for (bool is_ready = false; !is_ready;) {
             pollfd waiting{pipe_, POLLIN, 0};
@@ -240,9 +246,9 @@ class Messages {
     std::string label_;
     ConfinedLimits limits_;
     std::uint64_t may_send_ = limits_.sent_bytes;
-    double cpu_ = 0.0;     // s, when work was last seen
-    double idle_ = 0.0;    // s of waiting since
-    double in_all_ = 0.0;  // s of waiting
+    double cpu_ = 0.0;     // s: the child's CPU time when work was last seen
+    double idle_ = 0.0;    // s: the waiting time since
+    double in_all_ = 0.0;  // s: the waiting time in all
     std::string read_;
 };
 
@@ -264,6 +270,20 @@ std::string first_line(const std::string& text) {
                         signal, ::strsignal(signal)));
     }
     throw Error(label + ": ends the reader before it is read through");
+}
+
+ConfinedLimits limits_for(const InputFile& input) {
+    ConfinedLimits limits;
+    // The folder of the name and, where that is a link, of the file.
+    for (const auto& file :
+         {std::filesystem::absolute(input.path()), std::filesystem::canonical(input.path())}) {
+        limits.readable.push_back(file.parent_path());
+    }
+    limits.cpu_seconds = 10.0 + static_cast<double>(input.size()) / 20e6;
+    limits.idle_seconds = 30.0;
+    limits.memory = 0.25;
+    limits.sent_bytes = 64U << 10U;  // a type, or an error
+    return limits;
 }
 
 }  // namespace
@@ -293,6 +313,23 @@ void run_confined(const std::string& label, const ConfinedLimits& limits,
         receive(bytes);
     }
     fail_by(child.wait(), label, limits);
+}
+
+std::string check_confined(const InputFile& input, const std::function<std::string()>& read) {
+    std::string found;
+    run_confined(
+        input.path().string(), limits_for(input),
+        [&](const SendBytes& send) {
+            Hdf5Reader::set_check(nullptr);  // the child itself does the check
+            send(read());
+        },
+        [&](std::string_view bytes) { found = bytes; });
+    return found;
+}
+
+// A system with filters reads the filter from its address, which is null, and fails with EFAULT.
+bool offers_confinement() {
+    return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, nullptr, 0, 0) != 0 && errno == EFAULT;
 }
 
 }  // namespace samara

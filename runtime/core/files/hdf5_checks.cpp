@@ -29,15 +29,16 @@ bool holds_one_value(const H5::Attribute& attribute) {
     return shape && value_count(*shape) == hsize_t{1};
 }
 
-/// How the values of a dataset of the shape are cut into chunks.
+/// The chunks that a dataset of a given shape is stored in.
 struct Chunks {
-    std::vector<hsize_t> shape;   ///< of each
+    std::vector<hsize_t> shape;   ///< of one chunk
     std::vector<hsize_t> counts;  ///< along each axis
     hsize_t count = 0;
-    hsize_t bytes = 0;  ///< that each takes in the file, with its checksum where it has one
+    hsize_t bytes = 0;  ///< of one chunk in the file, with its checksum where it has one
 };
 
-/// Nothing where they do not fit the shape, or are more or larger than HDF5 can have them.
+/// Returns the chunks; nothing where they do not fit the shape, or are more or larger than HDF5 can have
+/// them.
 std::optional<Chunks> chunks_of(const H5::DSetCreatPropList& creation, const std::vector<hsize_t>& shape,
                                 std::size_t value_bytes) {
     constexpr hsize_t most_bytes = std::numeric_limits<std::uint32_t>::max();
@@ -58,14 +59,14 @@ std::optional<Chunks> chunks_of(const H5::DSetCreatPropList& creation, const std
     return chunks;
 }
 
-/// The bytes that whole chunks of the dataset take together.
+/// Returns the bytes of all of the dataset's chunks.
 std::optional<hsize_t> bytes_of_chunks(const H5::DSetCreatPropList& creation,
                                        const std::vector<hsize_t>& shape, std::size_t value_bytes) {
     const std::optional<Chunks> chunks = chunks_of(creation, shape, value_bytes);
     return chunks ? product(chunks->count, chunks->bytes) : std::nullopt;
 }
 
-/// A filter that is no checksum, or chunks at the edge without it.
+/// Returns whether the values pass a filter that is no checksum, or chunks at the edge pass none.
 bool is_encoded(const H5::DSetCreatPropList& creation) {
     unsigned options = 0;
     if (creation.getLayout() == H5D_CHUNKED && H5Pget_chunk_opts(creation.getId(), &options) >= 0 &&
@@ -149,7 +150,7 @@ std::string error_of_chunks(const H5::DataSet& dataset) {
         if (H5Dget_chunk_storage_size(dataset.getId(), place.data(), &bytes) < 0 || bytes != chunks->bytes) {
             return other_size;
         }
-        // The one call that tells in a time that does not grow with the number of chunks.
+        // This call alone takes a time that does not grow with the number of chunks.
         std::uint32_t passed_over = 0;
         if (has_checksum &&
             (H5Dread_chunk(dataset.getId(), H5P_DEFAULT, place.data(), &passed_over, stored.data()) < 0 ||

@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_checks.hpp"
-#include "samara/core/files/json_size.hpp"
+#include "samara/core/files/input_file.hpp"
 
 namespace samara {
 namespace {
 
-/// What looks at files before this process does, and those that it has seen.
+/// The check that files must pass before this process reads them, and the files that have passed.
 struct Door {
     std::mutex mutex;
     void (*check)(const InputFile&) = nullptr;
@@ -41,8 +41,8 @@ const std::filesystem::path& checked(const std::filesystem::path& path) {
 H5::H5File open_for_reading(const InputFile& input) {
     H5::Exception::dontPrint();
     try {
-        // Without a cache of chunks HDF5 reads values without checksums from where they stand, whatever size
-        // the file gives a chunk of them.
+        // Without a cache of chunks HDF5 reads values without checksums from their place in the file,
+        // whatever chunk size the file claims.
         H5::FileAccPropList access;
         access.setCache(0, 0, 0, 0.0);
         return {input.name(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
@@ -52,7 +52,7 @@ H5::H5File open_for_reading(const InputFile& input) {
     }
 }
 
-/// The part of a dataset's space at `offset`.
+/// Returns the part of a dataset's space at `offset`. space at `offset`.
 H5::DataSpace part_of(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
                       const std::vector<hsize_t>& shape) {
     H5::DataSpace space = dataset.getSpace();
@@ -100,7 +100,7 @@ bool Hdf5Reader::has(const std::string& name) const {
             if (!file_.nameExists(step)) return false;
             H5L_info_t link = {};
             if (H5Lget_info(file_.getId(), step.c_str(), &link, H5P_DEFAULT) < 0) throw error(step, damaged);
-            // Others lead to any place, other files among them.
+            // Other links may lead anywhere, such as to other files.
             if (link.type != H5L_TYPE_HARD)
                 throw error(step, "is a link to elsewhere, which is not followed");
             if (end == std::string::npos) return true;
@@ -147,7 +147,7 @@ H5::DataSet Hdf5Reader::open(const std::string& name, const std::vector<hsize_t>
                       std::equal(found.begin(), found.end(), dimensions.begin(),
                                  [](hsize_t is, hsize_t wanted) { return wanted == 0 || is == wanted; });
     if (!fits) {
-        throw error(name, fmt::format("has the shape {}, not {} (0: any), so the file is of another kind or "
+        throw error(name, fmt::format("has the shape {}, not {} (0: any), so the file is of another type or "
                                       "was changed",
                                       found, dimensions));
     }

@@ -14,43 +14,44 @@
 
 namespace samara {
 
-/// Reads one HDF5 file, which nobody need trust: every call checks links, types, shapes and sizes before it
+/// Reads one HDF5 file that need not be trusted: every call checks links, types, shapes and sizes before it
 /// takes memory or reads, and throws Error with the file's name, the place in it and the remedy where they do
-/// not fit. What lies in other files, and what is compressed or encoded, is refused; all datasets together
+/// not fit. Values in other files, and compressed or encoded ones, are rejected; all datasets together may
 /// claim no more bytes than the file has. Calls from several threads must not overlap.
 class Hdf5Reader {
   public:
-    /// Throws Error where the file cannot be opened, is no HDF5 file, or is not what its digest says. A file
-    /// without a digest, as earlier versions and other programs write it, is read too.
+    /// Opens the file. Throws Error where it cannot be opened, is no HDF5 file, or does not match its digest.
+    /// A file without a digest, as earlier versions and other programs write it, is read too.
     explicit Hdf5Reader(const std::filesystem::path& file);
 
-    /// Has every reader that this process makes from now on call `check` with its file first, once for each
-    /// state of a file, which throws Error where the file is not to be opened here; nullptr: none does, as in
-    /// libraries.
+    /// Makes every later reader of this process call `check` with its file first, once for each state of a
+    /// file. `check` throws Error where the file must not be opened here. nullptr, the default, as in
+    /// libraries: no check.
     static void set_check(void (*check)(const InputFile& file));
-    /// The file as it is now needs no check: this process wrote it.
+    /// Marks the file in its present state as checked: this process wrote it.
     static void trust(const std::filesystem::path& file);
 
-    /// Whether there is such a group or dataset.
+    /// Returns whether there is such a group or dataset.
     [[nodiscard]] bool has(const std::string& name) const;
-    /// The dataset's values, row-major; one that is not finite is an Error. `dimensions`: what its shape must
-    /// be; 0 stands for any length.
+    /// Returns the dataset's values, row-major. Throws Error where one is not finite. `dimensions`: the shape
+    /// that it must have; 0 stands for any length.
     [[nodiscard]] std::vector<double> finite_doubles(const std::string& name,
                                                      const std::vector<hsize_t>& dimensions) const;
-    /// finite_doubles() of the block of the shape `shape` at `offset`, which must lie within the dataset.
+    /// Returns finite_doubles() of the block of the shape `shape` at `offset`, which must lie within the
+    /// dataset.
     [[nodiscard]] std::vector<double> finite_block(const std::string& name,
                                                    const std::vector<hsize_t>& offset,
                                                    const std::vector<hsize_t>& shape) const;
     [[nodiscard]] std::vector<std::int32_t> integers(const std::string& name,
                                                      const std::vector<hsize_t>& dimensions) const;
     [[nodiscard]] std::string text(const std::string& name) const;
-    /// text() of a size and depth that programs can work on, where it is JSON.
+    /// Returns text(). Throws Error where it exceeds the size and depth of error_of_json_size().
     [[nodiscard]] std::string json_text(const std::string& name) const;
     [[nodiscard]] std::vector<hsize_t> shape(const std::string& name) const;
-    /// The names of the groups and datasets in a group, sorted.
+    /// Returns the names of the groups and datasets in a group, sorted.
     [[nodiscard]] std::vector<std::string> children(const std::string& group) const;
 
-    /// Throws Error where the dataset has not this shape.
+    /// Throws Error where the dataset does not have this shape.
     void require_shape(const std::string& name, const std::vector<hsize_t>& dimensions) const;
     [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
     [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
@@ -81,7 +82,7 @@ class Hdf5Reader {
     bool has_digest_;
     H5::H5File file_;
     mutable std::set<std::string> judged_;  ///< datasets whose storage is known to be sound
-    mutable hsize_t claimed_ = 0;           ///< bytes that they take together
+    mutable hsize_t claimed_ = 0;           ///< bytes: of these datasets together
 };
 
 }  // namespace samara

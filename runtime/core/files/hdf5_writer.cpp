@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/replace_file.hpp"
 
@@ -27,7 +27,8 @@ H5::FileAccPropList latest_format() {
     return access;
 }
 
-/// Object times off, so that equal content gives equal bytes. The file's own list speaks of its root group.
+/// Switches object times off, so that equal content gives equal bytes. The list of the file itself sets those
+/// of its root group.
 template <typename CreationList>
 CreationList without_times(CreationList list) {
     H5Pset_obj_track_times(list.getId(), 0);
@@ -77,7 +78,7 @@ H5::Group Hdf5Writer::group(const std::string& name) {
 
 namespace {
 
-/// The largest chunk of neighbours in a row-major array.
+/// Returns the largest chunk of neighbours in a row-major array.
 std::vector<hsize_t> usual_chunk(const std::vector<hsize_t>& dimensions) {
     std::vector<hsize_t> chunk = dimensions;
     hsize_t left = largest_chunk;
@@ -88,7 +89,7 @@ std::vector<hsize_t> usual_chunk(const std::vector<hsize_t>& dimensions) {
     return chunk;
 }
 
-/// The part of a dataset's space at `offset`.
+/// Returns the part of a dataset's space at `offset`. space at `offset`.
 H5::DataSpace part_of(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
                       const std::vector<hsize_t>& shape) {
     H5::DataSpace space = dataset.getSpace();
@@ -155,7 +156,7 @@ void Hdf5Writer::write_values(const H5::DataSet& dataset, const void* values, co
                               const H5::DataSpace& memory, const H5::DataSpace& place) {
     try {
         dataset.write(values, type, memory, place);
-        // Small datasets wait in memory until they are closed, where a failure could not be told.
+        // Small datasets stay in memory until they are closed, where a failure could not be reported.
         if (H5Dflush(dataset.getId()) < 0) throw H5::DataSetIException("write", "H5Dflush failed");
     } catch (const H5::Exception&) {
         // Before the dataset is closed: HDF5 cannot close what it cannot write, and crashes when the program
@@ -234,7 +235,7 @@ void Hdf5Writer::abandon() noexcept {
 Hdf5Writer::~Hdf5Writer() {
     try {
         file_.close();
-        // Room beyond the file's end goes back to the disk.
+        // Reserved room beyond the file's end is given back.
         if (has_room_) std::filesystem::resize_file(path_, std::filesystem::file_size(path_));
     } catch (...) {  // the file was abandoned
     }

@@ -12,7 +12,7 @@
 namespace samara {
 
 /// Writes one HDF5 file: library version "latest", fletcher32 on every dataset, no times, so that equal
-/// content gives equal bytes and a flipped bit is found on reading. Groups on the way to a dataset are made.
+/// content gives equal bytes and a flipped bit is found on reading. The groups of a dataset's path are made.
 /// Names are absolute paths.
 class Hdf5Writer {
   public:
@@ -21,22 +21,22 @@ class Hdf5Writer {
     Hdf5Writer(const Hdf5Writer&) = delete;
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-    /// Row-major values of the shape `dimensions`; `units` becomes the dataset's attribute of that name ("1"
-    /// where the values have none), `meaning` its attribute "description".
+    /// Writes row-major values of the shape `dimensions`. `units` becomes the dataset's attribute of that
+    /// name ("1" where the values have none), `meaning` its attribute "description".
     void write(const std::string& name, const std::vector<double>& values,
                const std::vector<hsize_t>& dimensions, std::string_view units, std::string_view meaning);
     void write(const std::string& name, const std::vector<std::int32_t>& values,
                const std::vector<hsize_t>& dimensions, std::string_view units, std::string_view meaning);
-    /// A dataset of doubles that is filled block by block: `dimensions` its shape, `chunk` that of the pieces
-    /// it is stored in. Blocks of whole chunks take the least time, and memory for one chunk.
+    /// Makes a dataset of doubles that is filled block by block: `dimensions` is its shape, `chunk` that of
+    /// the pieces it is stored in. Blocks of whole chunks take the least time, and memory for one chunk.
     void reserve(const std::string& name, const std::vector<hsize_t>& dimensions,
                  const std::vector<hsize_t>& chunk, std::string_view units, std::string_view meaning);
-    /// Row-major values of a block of the shape `shape` at `offset` in a dataset that was reserved.
+    /// Writes row-major values of a block of the shape `shape` at `offset` in a reserved dataset.
     void write_block(const std::string& name, const std::vector<double>& values,
                      const std::vector<hsize_t>& offset, const std::vector<hsize_t>& shape);
     /// Cuts a reserved dataset to a smaller shape.
     void shorten(const std::string& name, const std::vector<hsize_t>& dimensions);
-    /// A text as a dataset of bytes (no limit on its length).
+    /// Writes a text as a dataset of bytes (no limit on its length).
     void write_text(const std::string& name, std::string_view text, std::string_view meaning);
 
     void attribute(const std::string& object, const std::string& name, std::string_view text);
@@ -44,15 +44,15 @@ class Hdf5Writer {
     void attribute(const std::string& object, const std::string& name, std::int64_t value);
     void attribute(const std::string& object, const std::string& name, std::uint64_t value);
 
-    /// Keeps room on the disk for a file of this size, where the file system can. Throws Error where there is
-    /// not enough.
+    /// Reserves room on the disk for a file of this size, where the file system can. Throws Error where there
+    /// is not enough.
     void expect_size(std::uintmax_t bytes);
 
     /// Hands all that was written to the system; throws H5::Exception where the disk is full.
     void flush();
 
-    /// Lets go of a file that cannot be written to its end: from here on nothing reaches the disk, so that
-    /// HDF5 can close it.
+    /// Gives up a file that cannot be completed: from here on nothing reaches the disk, so that HDF5 can
+    /// close it.
     void abandon() noexcept;
 
   private:
@@ -66,11 +66,11 @@ class Hdf5Writer {
 
     std::filesystem::path path_;
     H5::H5File file_;
-    bool has_room_ = false;  ///< that must be given back
+    bool has_room_ = false;  ///< whether reserved room must be given back
 };
 
-/// Writes an HDF5 file through replace_file, with its digest: `fill` writes the content. HDF5's own failures
-/// become Error.
+/// Writes an HDF5 file through replace_file(), with its digest: `fill` writes the content. Throws Error, also
+/// in place of HDF5's own exceptions.
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& fill);
 
 }  // namespace samara

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 
 #include <fcntl.h>
@@ -22,8 +23,8 @@ std::string in_words(int reason) {
                             : fmt::format("cannot be read: {}", std::strerror(reason));
 }
 
-/// What keeps what is there from being a file; empty where nothing does.
-std::string error_of_kind(const struct stat& status) {
+/// Returns why something at a path is no file; empty where it is one.
+std::string error_of_type(const struct stat& status) {
     if (S_ISREG(status.st_mode)) return {};
     return S_ISDIR(status.st_mode) ? is_folder : "is a pipe, socket or device; give a file";
 }
@@ -32,12 +33,36 @@ Error error(const std::filesystem::path& path, const std::string& what) {
     return Error(fmt::format("{}: {}", path.string(), what));
 }
 
+constexpr std::size_t most_bytes = 64U << 20U;
+
+/// Returns the most lists and objects that are open at once; of a text that is no JSON, at least as many as a
+/// parser opens before it finds out.
+int depth_of(std::string_view text) {
+    int depth = 0;
+    int deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char letter = text[i];
+        if (in_string) {
+            if (letter == '\\') ++i;  // the next character ends no string
+            in_string = letter != '"';
+        } else if (letter == '"') {
+            in_string = true;
+        } else if (letter == '[' || letter == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if (letter == ']' || letter == '}') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
 }  // namespace
 
 std::string reading_error(const std::filesystem::path& path) {
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0) return in_words(errno);
-    if (std::string kind = error_of_kind(status); !kind.empty()) return kind;
+    if (std::string type = error_of_type(status); !type.empty()) return type;
     return ::access(path.c_str(), R_OK) == 0 ? "" : in_words(errno);
 }
 
@@ -48,13 +73,14 @@ std::string read_at_most(const std::filesystem::path& path, std::size_t most) {
 InputFile::InputFile(const std::filesystem::path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
     struct stat status = {};
-    // A socket cannot be opened, nor a device without a driver: what it is says more than why.
+    // A socket cannot be opened, nor a device without a driver: its type explains more than the system's
+    // reason.
     if (descriptor_ < 0) {
         const int reason = errno;
-        const std::string kind = ::stat(path.c_str(), &status) == 0 ? error_of_kind(status) : "";
-        throw error(path, kind.empty() ? in_words(reason) : kind);
+        const std::string type = ::stat(path.c_str(), &status) == 0 ? error_of_type(status) : "";
+        throw error(path, type.empty() ? in_words(reason) : type);
     }
-    const std::string what = ::fstat(descriptor_, &status) == 0 ? error_of_kind(status) : in_words(errno);
+    const std::string what = ::fstat(descriptor_, &status) == 0 ? error_of_type(status) : in_words(errno);
     if (!what.empty()) {
         ::close(descriptor_);
         throw error(path, what);
@@ -108,6 +134,12 @@ FileState state_of(const InputFile& file) {
     struct stat status = {};
     ::fstat(file.descriptor(), &status);
     return {status.st_dev, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+std::string error_of_json_size(std::string_view text) {
+    if (text.size() > most_bytes) return fmt::format("is longer than {} MB", most_bytes >> 20U);
+    if (depth_of(text) <= most_json_depth) return {};
+    return fmt::format("nests more than {} lists and objects", most_json_depth);
 }
 
 }  // namespace samara

@@ -24,7 +24,7 @@ Error cannot_be_written(const std::filesystem::path& target) {
     return Error(fmt::format("{}: cannot be written: {}", target.string(), std::strerror(errno)));
 }
 
-/// What tells the processes that this one can see from those of other machines and containers.
+/// Returns a mark that tells the processes that this one can see from those of other machines and containers.
 const std::string& place_of_processes() {
     static const std::string place = [] {
         std::array<char, 256> host = {};
@@ -79,7 +79,7 @@ class TemporaryFile {
         if (::fsync(descriptor_) != 0) throw cannot_be_written(target_);
         if (name_.empty()) {
             take_name();
-            ::unlink(name_.c_str());  // of a process that had this one's number
+            ::unlink(name_.c_str());  // left by an earlier process of the same number
             if (::linkat(AT_FDCWD, path_.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
                 throw cannot_be_written(target_);
             }
@@ -105,7 +105,7 @@ class TemporaryFile {
 
     std::filesystem::path target_;
     std::filesystem::path folder_;
-    std::filesystem::path name_;  ///< in the folder; empty as long as it has none
+    std::filesystem::path name_;  ///< in the folder; empty while it has none
     std::filesystem::path path_;  ///< to write to
     int descriptor_ = -1;
 };
@@ -122,7 +122,7 @@ void replace(const std::filesystem::path& target,
 
 void require_writable(const std::filesystem::path& target) {
     const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-    std::error_code unknown;  // what cannot be looked at fails to be written, with its reason
+    std::error_code unknown;  // where this check fails, writing fails later, with its reason
     if (!std::filesystem::exists(folder, unknown) && !unknown) {
         throw Error(fmt::format("{}: the folder {} does not exist; create it first", target.string(),
                                 folder.string()));

@@ -35,7 +35,7 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
 #error "the numbers of this processor's system calls are not known to the sandbox"
 #endif
 
-// What computing, threads, memory and reading take, on all processors and on x86-64 alone.
+// The system calls that computing, threads, memory and reading take, on all processors and on x86-64 alone.
 constexpr int allowed_calls[] = {
     SYS_read,
     SYS_readv,
@@ -114,7 +114,8 @@ constexpr int allowed_calls[] = {
 #endif
 };
 
-// No such call: the C library then takes the older one, whose arguments a filter can see.
+// Calls that fail as if they did not exist: the C library then takes older ones, whose arguments a filter can
+// see.
 constexpr int missing_calls[] = {
 #ifdef SYS_clone3
     SYS_clone3,
@@ -133,10 +134,10 @@ constexpr int starting_calls[] = {
 #endif
 };
 
-// What a half of an argument must be, under a mask.
+// A condition on one half of an argument, under a mask.
 struct Condition {
     std::size_t
-        half;  // 2 n: the lower one of argument n, on processors that begin with it; 2 n + 1: the upper
+        half;  // 2 n: the lower half of argument n, on little-endian processors; 2 n + 1: the upper one
     std::uint32_t value;
     std::uint32_t mask = std::numeric_limits<std::uint32_t>::max();
 };
@@ -206,7 +207,7 @@ bool allow_computing_and_reading_alone() {
 #if defined(__x86_64__)
     filter.allow_where(SYS_open, {{lower_half(1), O_RDONLY, writing}});
 #endif
-    // Not those that have a file signal other processes (F_SETOWN, F_SETSIG, O_ASYNC by F_SETFL).
+    // Excludes those that make a file signal other processes (F_SETOWN, F_SETSIG, O_ASYNC by F_SETFL).
     for (const int command : {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL}) {
         filter.allow_where(SYS_fcntl, {{lower_half(1), static_cast<std::uint32_t>(command)}});
     }
@@ -224,7 +225,8 @@ bool allow_computing_and_reading_alone() {
 // Best effort: the filter holds without it, but cannot see paths.
 void read_beneath(const std::vector<std::filesystem::path>& folders) {
     landlock_ruleset_attr all = {};
-    all.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1U) - 1U;  // of the first Landlock: the last bit
+    all.handled_access_fs =
+        (LANDLOCK_ACCESS_FS_MAKE_SYM << 1U) - 1U;  // the last right of the first version of Landlock
     const auto rules = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &all, sizeof all, 0));
     if (rules < 0) return;
     for (const std::filesystem::path& folder : folders) {
@@ -246,7 +248,7 @@ void read_beneath(const std::vector<std::filesystem::path>&) {}
 
 void enter_sandbox(const std::vector<std::filesystem::path>& readable) {
     std::vector<std::filesystem::path> folders = readable;
-    // Libraries that are loaded late, how many processors there are, and what sanitizers look up.
+    // For libraries that are loaded late, the number of processors, and what sanitizers look up.
     for (const char* folder : {"/usr", "/lib", "/lib64", "/sys/devices/system/cpu", "/proc/self"}) {
         folders.emplace_back(folder);
     }

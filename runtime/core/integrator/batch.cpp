@@ -17,39 +17,39 @@ namespace {
 
 constexpr std::size_t blocks_a_piece = 64;
 
-/// What the bodies of a batch touch.
+/// The ground of the bodies of a batch.
 struct BatchGround {
     const Batch& batch;
     const ImmersedBody& body;
-    double largest;  ///< size
+    double largest;  ///< the largest size
     const Surroundings& surroundings;
-    ContactRecord* sampled;  ///< of each body; null: not noted
+    ContactRecord* records;  ///< of each body; null: not recorded
 
     static void resolve(const void* context, std::size_t index, double time, double substep,
                         const BodyState& before, BodyState& state) noexcept {
         const auto& ground = *static_cast<const BatchGround*>(context);
         if (ground.batch.is_contact_left(index)) return;
-        const Ground sampled = ground_in_flow(ground.surroundings, time - substep, time);
+        const Ground now = ground_in_flow(ground.surroundings, time - substep, time);
         const double size = ground.batch.size_of(index);
-        ContactRecord* record = ground.sampled == nullptr ? nullptr : ground.sampled + index;
+        ContactRecord* record = ground.records == nullptr ? nullptr : ground.records + index;
         if (size == 1.0)
-            return touch_ground(ground.batch.touching(index), sampled, substep, before, state, record);
+            return touch_ground(ground.batch.touching(index), now, substep, before, state, record);
         const BodyState world_before = in_world_units(before, size);
         BodyState world = in_world_units(state, size);
-        touch_ground(ground.batch.touching(index), sampled, substep, world_before, world, record);
+        touch_ground(ground.batch.touching(index), now, substep, world_before, world, record);
         state = in_own_units(world, size);
-        // What lies still keeps its place to the last bit.
+        // A body at rest keeps its place to the last bit.
         if (world.position == world_before.position) state.position = before.position;
     }
 
     static void stay(const void* context, std::size_t index, double begin, double end,
                      BodyState& state) noexcept {
         const auto& ground = *static_cast<const BatchGround*>(context);
-        const Ground sampled = ground_in_flow(ground.surroundings, begin, end);
+        const Ground now = ground_in_flow(ground.surroundings, begin, end);
         const double size = ground.batch.size_of(index);
-        if (size == 1.0) return stay_on(sampled, state);
+        if (size == 1.0) return keep_on_ground(now, state);
         BodyState world = in_world_units(state, size);
-        stay_on(sampled, world);
+        keep_on_ground(now, world);
         state = in_own_units(world, size);
     }
 
@@ -90,10 +90,9 @@ Wrench wrench_of(const kernel::ExternalLoads& external, std::size_t lane) noexce
     return wrench;
 }
 
-/// One body alone: to the same bits as in a vector of them, and sooner.
+/// Steps one body alone: to the same bits as in a vector of bodies, and faster.
 BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surroundings,
-                          const kernel::BlockSteps& task, ContactRecord* sampled,
-                          StateBlock& block) noexcept {
+                          const kernel::BlockSteps& task, ContactRecord* record, StateBlock& block) noexcept {
     const Noise noise(std::array{block.noise[0][0], block.noise[1][0], block.noise[2][0], block.noise[3][0]});
     BatchReport report;
     BodyState state = state_of(block, 0);
@@ -113,7 +112,7 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
     for (std::uint64_t step = std::max(task.first_step, block.first_step[0]);
          step < task.first_step + task.steps; ++step) {
         const StepResult result =
-            advance(body, surroundings, task.start, task.time_step, state, noise, step, pushed, sampled);
+            advance(body, surroundings, task.start, task.time_step, state, noise, step, pushed, record);
         state = result.state;
         report.count(result.substeps);
         report.wind_is_sound = report.wind_is_sound && result.wind_is_sound;
@@ -204,8 +203,8 @@ BatchReport Batch::advance(const Surroundings& surroundings, double start, doubl
     }
     const bool sized = !sizes_.empty();
     const double largest = sized ? *std::max_element(sizes_.begin(), sizes_.end()) : 1.0;
-    ContactRecord* sampled = met_.empty() ? nullptr : met_.data();
-    const BatchGround ground{*this, *body_, largest, surroundings, sampled};
+    ContactRecord* records = records_.empty() ? nullptr : records_.data();
+    const BatchGround ground{*this, *body_, largest, surroundings, records};
     const BodyWind wind(*body_, surroundings, start, time_step);
     const kernel::BlockSteps task{.gravities = gravities.data(),
                                   .start = start,
@@ -217,7 +216,7 @@ BatchReport Batch::advance(const Surroundings& surroundings, double start, doubl
                                   .wind = wind.source(),
                                   .external = external_.empty() ? nullptr : external_.data()};
     if (size_ == 1 && !sized && !is_contact_left(0)) {
-        BatchReport alone = advance_alone(*body_, surroundings, task, sampled, blocks_.front());
+        BatchReport alone = advance_alone(*body_, surroundings, task, records, blocks_.front());
         alone.wind_is_sound = alone.wind_is_sound && wind.is_sound();
         return alone;
     }

@@ -35,7 +35,7 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     const SampledTurbulence& seen = state.sampled_turbulence;
     if (state.at_rest && seen.velocity.isZero(0.0) && seen.angular_velocity.isZero(0.0) &&
         is_steady(body, surroundings)) {
-        stay_on(ground_in_flow(surroundings, time, end), result.state);
+        keep_on_ground(ground_in_flow(surroundings, time, end), result.state);
         return result;
     }
     const BodyWind wind(body, surroundings, start, time_step);
@@ -52,9 +52,9 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
         result.wind_is_sound = wind.is_sound();
         return result;
     }
-    const auto [parts, stream] =
+    const auto [substeps, stream] =
         kernel::begin_step(body.constants, time_step, wind.source(), noise, step, result.state);
-    result.substeps = parts;
+    result.substeps = substeps;
     result.wind_is_sound = wind.is_sound();
     const double substep = time_step / result.substeps;
     BodyState before = state;
@@ -71,7 +71,7 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
 
 namespace {
 
-/// The inertia of the fluid alone about the centre of mass: K less the body's own.
+/// Returns the inertia of the fluid alone about the centre of mass: K less the body's own.
 Matrix6d added_inertia_of(const ImmersedBody& body) {
     Matrix6d added = body.inertia;
     added.topLeftCorner<3, 3>() -= body.own_inertia;
@@ -79,7 +79,7 @@ Matrix6d added_inertia_of(const ImmersedBody& body) {
     return added;
 }
 
-/// The wind of the world as a body of another size meets it in its own lengths and times (body_size.hpp).
+/// The wind of the world in the lengths and times of a body of another size (body_size.hpp).
 struct SizedWind {
     kernel::WindSource of_world;
     double size = 1.0;
@@ -105,10 +105,10 @@ struct SizedWind {
     }
 };
 
-/// begin_step() of a body of that size, whose constant turbulence is the world's.
-kernel::SeenStream seen_stream(const ImmersedBody& body, double size, double own_step,
-                               const kernel::WindSource& wind, const Noise& noise, std::uint64_t step,
-                               BodyState& state) {
+/// Returns begin_step() of a body of that size, whose constant turbulence is the world's.
+kernel::SampledStream sampled_stream(const ImmersedBody& body, double size, double own_step,
+                                     const kernel::WindSource& wind, const Noise& noise, std::uint64_t step,
+                                     BodyState& state) {
     if (size == 1.0 || body.turbulence != Turbulence::constant) {
         return kernel::begin_step(body.constants, own_step, wind, noise, step, state).stream;
     }
@@ -118,7 +118,8 @@ kernel::SeenStream seen_stream(const ImmersedBody& body, double size, double own
     return kernel::begin_step(constants, own_step, wind, noise, step, state).stream;
 }
 
-/// A matrix over (omega, v) in the lengths and times of the world; `linear`: the factor of its last block.
+/// Returns a matrix over (omega, v) in the lengths and times of the world; `linear`: the factor of its last
+/// block.
 Matrix6d in_world_units(const Matrix6d& matrix, double size, double linear) {
     Matrix6d result = linear * matrix;
     result.topRows<3>() *= size;
@@ -132,10 +133,10 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
                         double time_step, const BodyState& state, const Noise& noise, std::uint64_t step) {
     const double size_square = size * size;
     const double own_step = time_step / size_square;
-    const BodyWind meeting(body, surroundings, start, time_step);
-    const SizedWind wind{meeting.source(), size};
-    BodyState stirred = state;
-    kernel::SeenStream stream = seen_stream(body, size, own_step, wind.source(), noise, step, stirred);
+    const BodyWind body_wind(body, surroundings, start, time_step);
+    const SizedWind wind{body_wind.source(), size};
+    BodyState next = state;
+    kernel::SampledStream stream = sampled_stream(body, size, own_step, wind.source(), noise, step, next);
     if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
     const Matrix3d to_world = state.orientation.toRotationMatrix();
     const Matrix3d to_body = to_world.transpose();
@@ -143,7 +144,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     const Vector3d in_the_flow = size * size_square *
                                  apparent_gravity(surroundings, step_time(start, time_step, step),
                                                   step_time(start, time_step, step + 1));
-    // Of the stream that the body is in, in the world.
+    // The acceleration of the stream that the body is in, in the world.
     const Vector3d acceleration = to_body * ((stream.end - stream.begin) / own_step + gravity - in_the_flow);
 
     const Matrix6d added = added_inertia_of(body);
@@ -152,7 +153,7 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     relative.tail<3>() -= to_body * stream.begin;
     const Vector3d moving = relative.tail<3>();
     const Vector6d momentum = added * relative;
-    // The fluid's momentum in the turning axes, and the part of the acceleration relative to the stream, in
+    // The fluid's momentum in the rotating axes, and the part of the acceleration relative to the stream, in
     // these axes, that is not the body's own.
     Vector6d transport;
     transport << Vector3d::Zero(), omega.cross(moving) + acceleration;
@@ -167,22 +168,23 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     Matrix6d damping = Matrix6d::Zero();
     if (body.loads != Loads::none) {
         const Vector6d of_centroid = body.to_centroid * relative;
-        const Vector3d seen_rotation = to_body * stream.rotation;
-        const LoadMatrices loads = load_matrices(body, of_centroid, seen_rotation,
+        const Vector3d sampled_rotation = to_body * stream.rotation;
+        const LoadMatrices loads = load_matrices(body, of_centroid, sampled_rotation,
                                                  to_body * stream.wake_fluctuation, shares_of(state.wake));
         wrench += body.to_centroid.transpose() *
-                  (loads.relative.leftCols<3>() * seen_rotation - loads.whole * of_centroid);
+                  (loads.relative.leftCols<3>() * sampled_rotation - loads.whole * of_centroid);
         damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;
     }
     // Noise on the velocity itself, where that is the model.
-    wrench += body.inertia * (stirred.velocity - state.velocity) / own_step;
+    wrench += body.inertia * (next.velocity - state.velocity) / own_step;
 
-    Matrix6d turn = Matrix6d::Zero();
-    turn.topLeftCorner<3, 3>() = to_world;
-    turn.bottomRightCorner<3, 3>() = to_world;
+    Matrix6d rotation = Matrix6d::Zero();
+    rotation.topLeftCorner<3, 3>() = to_world;
+    rotation.bottomRightCorner<3, 3>() = to_world;
     wrench.head<3>() *= size;
-    return {turn * wrench, turn * in_world_units(added, size, size * size_square) * turn.transpose(),
-            turn * in_world_units(damping, size, size) * turn.transpose()};
+    return {rotation * wrench,
+            rotation * in_world_units(added, size, size * size_square) * rotation.transpose(),
+            rotation * in_world_units(damping, size, size) * rotation.transpose()};
 }
 
 }  // namespace samara

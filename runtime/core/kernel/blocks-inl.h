@@ -15,9 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-/// The lanes [first, first + N) of a block.
+/// Loads the lanes [first, first + N) of a block.
 template <class Tag>
-HWY_INLINE Simulation<Lanes<Tag>> load_simulation(Tag tag, const StateBlock& block, std::size_t first) {
+HWY_INLINE StepState<Lanes<Tag>> load_step_state(Tag tag, const StateBlock& block, std::size_t first) {
     const auto field = [&](std::size_t i)
                            HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
@@ -27,8 +27,8 @@ HWY_INLINE Simulation<Lanes<Tag>> load_simulation(Tag tag, const StateBlock& blo
             triple(22), {field(25), triple(26)}};
 }
 template <class Tag>
-HWY_INLINE void store_flight(Tag tag, const Simulation<Lanes<Tag>>& simulation, StateBlock& block,
-                             std::size_t first) {
+HWY_INLINE void store_step_state(Tag tag, const StepState<Lanes<Tag>>& step_state, StateBlock& block,
+                                 std::size_t first) {
     const auto keep = [&](std::size_t i, Lanes<Tag> value)
                           HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
     const auto keep_triple = [&](std::size_t i, const Triple<Lanes<Tag>>& value) HWY_ATTR {
@@ -36,35 +36,35 @@ HWY_INLINE void store_flight(Tag tag, const Simulation<Lanes<Tag>>& simulation, 
         keep(i + 1, value.y);
         keep(i + 2, value.z);
     };
-    keep_triple(0, simulation.position);
-    keep(3, simulation.orientation.w);
-    keep_triple(4, simulation.orientation.v);
-    keep_triple(7, simulation.angular_velocity);
-    keep_triple(10, simulation.velocity);
-    keep_triple(13, simulation.seen_velocity);
-    keep_triple(16, simulation.seen_rotation);
-    keep_triple(19, simulation.angular_acceleration);
-    keep_triple(22, simulation.acceleration);
-    keep(25, simulation.wake.formed);
-    keep_triple(26, simulation.wake.heading);
+    keep_triple(0, step_state.position);
+    keep(3, step_state.orientation.w);
+    keep_triple(4, step_state.orientation.v);
+    keep_triple(7, step_state.angular_velocity);
+    keep_triple(10, step_state.velocity);
+    keep_triple(13, step_state.sampled_velocity);
+    keep_triple(16, step_state.sampled_rotation);
+    keep_triple(19, step_state.angular_acceleration);
+    keep_triple(22, step_state.acceleration);
+    keep(25, step_state.wake.formed);
+    keep_triple(26, step_state.wake.heading);
 }
 
 template <class Tag>
-HWY_INLINE Simulation<Lanes<Tag>> select_flight(hn::Mask<Tag> condition, const Simulation<Lanes<Tag>>& a,
-                                                const Simulation<Lanes<Tag>>& b) {
+HWY_INLINE StepState<Lanes<Tag>> select_step_state(hn::Mask<Tag> condition, const StepState<Lanes<Tag>>& a,
+                                                   const StepState<Lanes<Tag>>& b) {
     return {select(condition, a.position, b.position),
             {select(condition, a.orientation.w, b.orientation.w),
              select(condition, a.orientation.v, b.orientation.v)},
             select(condition, a.angular_velocity, b.angular_velocity),
             select(condition, a.velocity, b.velocity),
-            a.seen_velocity,
-            a.seen_rotation,
+            a.sampled_velocity,
+            a.sampled_rotation,
             select(condition, a.angular_acceleration, b.angular_acceleration),
             select(condition, a.acceleration, b.acceleration),
             select(condition, a.wake, b.wake)};
 }
 
-/// What random numbers Noise::normals would give each lane.
+/// Returns the random numbers that Noise::normals() gives each lane.
 template <class Tag>
 struct LaneDraw {
     const StateBlock& block;
@@ -75,7 +75,7 @@ struct LaneDraw {
         return three_normals(uniforms(NoiseStream::sampled_turbulence));
     }
     [[nodiscard]] HWY_INLINE SixNormals<Lanes<Tag>> six() const {
-        const std::array<Lanes<Tag>, 4> rest = uniforms(NoiseStream::seen_rotation);
+        const std::array<Lanes<Tag>, 4> rest = uniforms(NoiseStream::sampled_rotation);
         return six_normals(uniforms(NoiseStream::sampled_turbulence), rest[0], rest[1]);
     }
 
@@ -93,24 +93,25 @@ struct LaneDraw {
     }
 };
 
-/// The bodies that may have touched the ground or an obstacle since before the substep, or may by the end of
-/// the next: no fewer than touch_ground() would find.
+/// Returns the bodies that may have touched the ground or an obstacle since before the substep, or may by the
+/// end of the next: no fewer than touch_ground() would find.
 template <class Tag>
-HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const Simulation<Lanes<Tag>>& before,
-                                     const Simulation<Lanes<Tag>>& simulation, Lanes<Tag> own_substep,
+HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const StepState<Lanes<Tag>>& before,
+                                     const StepState<Lanes<Tag>>& step_state, Lanes<Tag> own_substep,
                                      Lanes<Tag> size) {
     using V = Lanes<Tag>;
     const V per_size = V(1.0) / size;
     const V substep = (size * size) * own_substep;
-    const V turning =
-        (per_size * per_size) * root(dot(simulation.angular_velocity, simulation.angular_velocity));
-    const V speed = per_size * root(dot(simulation.velocity, simulation.velocity));
-    const Triple<V> place = size * simulation.position;
+    const V rotation_rate =
+        (per_size * per_size) * root(dot(step_state.angular_velocity, step_state.angular_velocity));
+    const V speed = per_size * root(dot(step_state.velocity, step_state.velocity));
+    const Triple<V> place = size * step_state.position;
     const Triple<V> place_before = size * before.position;
-    const V margin = V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * turning);
+    const V margin =
+        V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * rotation_rate);
     const auto near = place.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
     if (!contact.has_obstacles) return near;
-    // The velocity's change, by which touch_ground() looks farther, is that of both.
+    // touch_ground() looks farther by the change of velocity: here by both speeds.
     const V speed_before = per_size * root(dot(before.velocity, before.velocity));
     const V around = margin + V(1.001) * (substep * (speed + speed_before + V(2.0 * contact.ground_speed)) +
                                           V(contact.radius));
@@ -129,91 +130,91 @@ inline void touch_ground(const kernel::Contact& contact, const StateBlock& befor
                          std::size_t first, std::size_t lanes, int substep, const double* substeps,
                          double time, double h) {
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
-        const double parts = static_cast<double>(substeps[lane - first]);
-        if (substep >= parts) continue;
+        const double counts = static_cast<double>(substeps[lane - first]);
+        if (substep >= counts) continue;
         BodyState state = state_of(block, lane);
-        contact.resolve(contact.context, block.first_body + lane, time + (substep + 1) * (h / parts),
-                        h / parts, state_of(before, lane), state);
+        contact.resolve(contact.context, block.first_body + lane, time + (substep + 1) * (h / counts),
+                        h / counts, state_of(before, lane), state);
         keep_state(state, block, lane);
     }
 }
 
-/// The Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
+/// Does the Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
 template <class V, class Draw>
 HWY_INLINE void sample_turbulence(const StepConstants& c, V h, const Draw& draw, V size_square,
-                                  Simulation<V>& simulation) {
+                                  StepState<V>& step_state) {
     if (c.turbulence == Turbulence::none) {
-        simulation.seen_velocity = no_vector<V>();
-        simulation.seen_rotation = no_vector<V>();
+        step_state.sampled_velocity = no_vector<V>();
+        step_state.sampled_rotation = no_vector<V>();
         return;
     }
-    Level<V> level = turbulence_level(c, centroid_velocity(c, simulation));
+    Level<V> level = turbulence_level(c, centroid_velocity(c, step_state));
     if (c.turbulence == Turbulence::constant) {
         level = {size_square * level.turbulent_kinetic_energy,
                  (size_square * size_square) * level.dissipation_rate};
     }
     if (c.langevin == Langevin::wake) {
-        advance_wake(c, level, h, draw.three(), simulation);
+        advance_wake(c, level, h, draw.three(), step_state);
     } else if (c.langevin == Langevin::sampled_turbulence) {
-        advance_sampled_turbulence(c, level, h, draw.six(), simulation);
+        advance_sampled_turbulence(c, level, h, draw.six(), step_state);
     } else {
-        advance_body_velocity(c, level, h, draw.six(), simulation);
+        advance_body_velocity(c, level, h, draw.six(), step_state);
     }
 }
 
-/// Fluid at rest.
+/// Returns a stream at rest.
 template <class V>
 HWY_INLINE Stream<V> no_stream() {
     return {no_vector<V>(), no_vector<V>(), no_vector<V>(), false, no_vector<V>()};
 }
 
-/// Where the centroid is halfway through a step, as far as its velocity says (m, in the flow's frame).
+/// Returns the place of the centroid at mid-step by its velocity (m, in the flow's frame).
 template <class V>
-HWY_INLINE Triple<V> halfway(const StepConstants& c, V h, const Simulation<V>& simulation) {
-    const Square<V> to_world = rotation_matrix(simulation.orientation);
-    const Triple<V> way = (V(0.5) * h * V(c.length)) * centroid_velocity(c, simulation);
-    return simulation.position + to_world * (broadcast<V>(c.center_of_buoyancy) + way);
+HWY_INLINE Triple<V> halfway(const StepConstants& c, V h, const StepState<V>& step_state) {
+    const Square<V> to_world = rotation_matrix(step_state.orientation);
+    const Triple<V> offset = (V(0.5) * h * V(c.length)) * centroid_velocity(c, step_state);
+    return step_state.position + to_world * (broadcast<V>(c.center_of_buoyancy) + offset);
 }
 
-/// What a body sees between two steps: a stream that changes evenly; or a slip of its loads alone, which
-/// stands for the step and does not push by its change.
+/// Returns the stream of a body in a step: one that changes evenly; or a fluctuation that affects its loads
+/// alone, which is constant in the step and does not accelerate the fluid.
 template <class V>
-HWY_INLINE Stream<V> seen_stream(const StepConstants& c, const Triple<V>& before,
-                                 const Simulation<V>& simulation) {
+HWY_INLINE Stream<V> sampled_stream(const StepConstants& c, const Triple<V>& before,
+                                    const StepState<V>& step_state) {
     if (c.langevin != Langevin::wake) {
-        return {before, simulation.seen_velocity, simulation.seen_rotation, false, no_vector<V>()};
+        return {before, step_state.sampled_velocity, step_state.sampled_rotation, false, no_vector<V>()};
     }
-    const Triple<V> middle = V(0.5) * (before + simulation.seen_velocity);
-    return {middle, middle, simulation.seen_rotation, true, middle};
+    const Triple<V> middle = V(0.5) * (before + step_state.sampled_velocity);
+    return {middle, middle, step_state.sampled_rotation, true, middle};
 }
 
-/// The Langevin update of one step in a wind, or without (then `wind` is none), and the stream that the body
-/// is in. What turbulence a body meets is a matter of its velocity in the wind.
+/// Does the Langevin update of one step, in a wind or without (then `wind` is none), and returns the stream
+/// that the body is in. The turbulence depends on the body's velocity relative to the wind.
 template <class V, class Draw>
 HWY_INLINE Stream<V> sample_fluid(const StepConstants& c, V h, bool windy, const Stream<V>& wind,
-                                  const Draw& draw, V size_square, Simulation<V>& simulation) {
-    const Triple<V> seen_before = simulation.seen_velocity;
+                                  const Draw& draw, V size_square, StepState<V>& step_state) {
+    const Triple<V> seen_before = step_state.sampled_velocity;
     if (!windy) {
-        sample_turbulence(c, h, draw, size_square, simulation);
-        return seen_stream(c, seen_before, simulation);
+        sample_turbulence(c, h, draw, size_square, step_state);
+        return sampled_stream(c, seen_before, step_state);
     }
-    const Triple<V> velocity = simulation.velocity;
-    const Triple<V> of_wind = transposed_times(rotation_matrix(simulation.orientation), wind.begin);
-    simulation.velocity = velocity - of_wind;
-    sample_turbulence(c, h, draw, size_square, simulation);
+    const Triple<V> velocity = step_state.velocity;
+    const Triple<V> of_wind = transposed_times(rotation_matrix(step_state.orientation), wind.begin);
+    step_state.velocity = velocity - of_wind;
+    sample_turbulence(c, h, draw, size_square, step_state);
     const bool driven = c.turbulence != Turbulence::none && c.langevin == Langevin::body_velocity;
-    simulation.velocity = driven ? simulation.velocity + of_wind : velocity;
+    step_state.velocity = driven ? step_state.velocity + of_wind : velocity;
     if (!sees_turbulence(c)) return wind;
-    const Stream<V> seen = seen_stream(c, seen_before, simulation);
+    const Stream<V> seen = sampled_stream(c, seen_before, step_state);
     return {seen.begin + wind.begin, seen.end + wind.end, seen.rotation + wind.rotation, false,
             seen.wake_fluctuation};
 }
 
-/// The wind that the bodies of the lanes meet in a step.
+/// Samples the wind for the bodies of the lanes in a step.
 template <class Tag>
-HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const StepConstants& c, const kernel::WindSource& source,
-                                       std::uint64_t step, std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
-                                       const Simulation<Lanes<Tag>>& simulation) {
+HWY_INLINE Stream<Lanes<Tag>> sampled_wind(Tag tag, const StepConstants& c, const kernel::WindSource& source,
+                                           std::uint64_t step, std::size_t bodies, Lanes<Tag> h,
+                                           Lanes<Tag> size, const StepState<Lanes<Tag>>& step_state) {
     using V = Lanes<Tag>;
     if (source.sample == nullptr) return no_stream<V>();
     HWY_ALIGN_MAX double row[hn::MaxLanes(Tag())];
@@ -226,7 +227,7 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const StepConstants& c, const ke
         for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<double>(from[i]);
         return V(hn::Load(tag, row));
     };
-    const Triple<V> place = size * halfway(c, h, simulation);
+    const Triple<V> place = size * halfway(c, h, step_state);
     give(place.x, sampled.place[0]);
     give(place.y, sampled.place[1]);
     give(place.z, sampled.place[2]);
@@ -238,8 +239,8 @@ HWY_INLINE Stream<Lanes<Tag>> met_wind(Tag tag, const StepConstants& c, const ke
             false, no_vector<V>()};
 }
 
-/// What pushes the bodies of the lanes, in the units of a body of the shape's size that moves alike
-/// (body_size.hpp).
+/// Returns the external loads on the bodies of the lanes, in the units of a body of the shape's size in
+/// similar motion (body_size.hpp).
 template <class Tag>
 HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& external, std::size_t first,
                                     Lanes<Tag> size) {
@@ -255,7 +256,7 @@ HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& extern
     return {(V(1.0) / size) * three(external.moment), three(external.force)};
 }
 
-/// Where bodies of the lanes [first, first + N) move: 1, and 0 in lanes without a body or with one that
+/// Marks the lanes [first, first + N) whose bodies move: 1, and 0 in lanes without a body or with one that
 /// rests or waits.
 struct MovingLanes {
     MovingLanes(const kernel::Contact& contact, const StateBlock& block, std::uint64_t step,
@@ -282,12 +283,12 @@ struct MovingLanes {
     bool any_waits = false;
 };
 
-/// Leaves the bodies of the lanes that rest on the ground there for a step.
-inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number, StateBlock& block,
-                           std::size_t first, std::size_t lanes, const MovingLanes& lively) {
+/// Keeps the bodies of the lanes that rest on the ground there for a step.
+inline void keep_on_ground(const kernel::BlockSteps& task, std::uint64_t number, StateBlock& block,
+                           std::size_t first, std::size_t lanes, const MovingLanes& moving_lanes) {
     const std::uint64_t step = task.first_step + number;
     for (std::size_t lane = first; lane < std::min<std::size_t>(first + lanes, block.bodies); ++lane) {
-        if (lively.moves[lane - first] != 0.0 || step < block.first_step[lane]) continue;
+        if (moving_lanes.moves[lane - first] != 0.0 || step < block.first_step[lane]) continue;
         BodyState state = state_of(block, lane);
         task.contact.stay(task.contact.context, block.first_body + lane,
                           step_time(task.start, task.time_step, step),
@@ -296,48 +297,50 @@ inline void stay_on_ground(const kernel::BlockSteps& task, std::uint64_t number,
     }
 }
 
-/// One step of the lanes [first, first + N) of a block; adds to the report.
+/// Takes one step of the lanes [first, first + N) of a block; adds to the report.
 template <class Tag>
 HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::BlockSteps& task,
                               std::uint64_t number, StateBlock& block, std::size_t first,
-                              Simulation<Lanes<Tag>>& simulation, BatchReport& report) {
+                              StepState<Lanes<Tag>>& step_state, BatchReport& report) {
     using V = Lanes<Tag>;
     const std::size_t lanes = hn::Lanes(tag);
-    const MovingLanes lively(task.contact, block, task.first_step + number, first, lanes);
-    const auto let_others_stay = [&]() HWY_ATTR {
-        if (!lively.any_rests || !task.contact.moves) return;
-        store_flight(tag, simulation, block, first);
-        stay_on_ground(task, number, block, first, lanes, lively);
-        simulation = load_simulation(tag, block, first);
+    const MovingLanes moving_lanes(task.contact, block, task.first_step + number, first, lanes);
+    const auto keep_others_on_ground = [&]() HWY_ATTR {
+        if (!moving_lanes.any_rests || !task.contact.moves) return;
+        store_step_state(tag, step_state, block, first);
+        keep_on_ground(task, number, block, first, lanes, moving_lanes);
+        step_state = load_step_state(tag, block, first);
     };
-    if (!lively.any_moves) return let_others_stay();
+    if (!moving_lanes.any_moves) return keep_others_on_ground();
 
     const V size = task.sized ? V(hn::Load(tag, block.size_of + first)) : V(1.0);
     const V size_square = size * size;
     const V h = V(task.time_step) / size_square;
-    const V moves(hn::Load(tag, lively.moves));
-    const bool meets = task.contact.resolve != nullptr;
-    // Of long copies those alone that are needed.
+    const V moves(hn::Load(tag, moving_lanes.moves));
+    const bool has_contact = task.contact.resolve != nullptr;
+    // The long copy is made only where it is needed.
     StateBlock before;
-    if (meets || lively.any_waits) store_flight(tag, simulation, before, first);
+    if (has_contact || moving_lanes.any_waits) store_step_state(tag, step_state, before, first);
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     const bool windy = task.wind.sample != nullptr;
     const Stream<V> wind =
-        met_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, size, simulation);
+        sampled_wind(tag, c, task.wind, task.first_step + number, used_lanes, h, size, step_state);
     const Stream<V> sampled = sample_fluid(
-        c, h, windy, wind, LaneDraw<Tag>{block, first, task.first_step + number}, size_square, simulation);
-    if (lively.any_rests || lively.any_waits) {
-        const auto stirred = V(0.5) < moves;
-        const Simulation<V> previous = load_simulation(tag, before, first);
-        simulation = select_flight<Tag>(stirred, simulation, previous);
-        simulation.seen_velocity = select(stirred, simulation.seen_velocity, previous.seen_velocity);
-        simulation.seen_rotation = select(stirred, simulation.seen_rotation, previous.seen_rotation);
+        c, h, windy, wind, LaneDraw<Tag>{block, first, task.first_step + number}, size_square, step_state);
+    if (moving_lanes.any_rests || moving_lanes.any_waits) {
+        const auto is_moving = V(0.5) < moves;
+        const StepState<V> previous = load_step_state(tag, before, first);
+        step_state = select_step_state<Tag>(is_moving, step_state, previous);
+        step_state.sampled_velocity =
+            select(is_moving, step_state.sampled_velocity, previous.sampled_velocity);
+        step_state.sampled_rotation =
+            select(is_moving, step_state.sampled_rotation, previous.sampled_rotation);
     }
 
-    HWY_ALIGN_MAX double parts[hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX double counts[hn::MaxLanes(Tag())];
     const bool sees_fluid = windy || sees_turbulence(c);
-    const V substeps = moves * substeps_of(c, h, sees_fluid, sampled.begin, simulation);
-    hn::Store(substeps.raw, tag, parts);
+    const V substeps = moves * substeps_of(c, h, sees_fluid, sampled.begin, step_state);
+    hn::Store(substeps.raw, tag, counts);
     const bool all_whole = used_lanes == lanes && hn::AllTrue(tag, hn::Eq(substeps.raw, V(1.0).raw));
     int most = 1;
     if (all_whole) {
@@ -345,7 +348,7 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     } else {
         most = 0;
         for (std::size_t lane = 0; lane < used_lanes; ++lane) {
-            const int taken = static_cast<int>(parts[lane]);
+            const int taken = static_cast<int>(counts[lane]);
             report.count(taken);
             most = std::max(most, taken);
         }
@@ -360,23 +363,24 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
         StateBlock kept;
-        if (!all_whole) store_flight(tag, simulation, kept, first);
+        if (!all_whole) store_step_state(tag, step_state, kept, first);
         implicit_step(c, gravity, substep, sees_fluid, all_whole ? sampled : part_of(sampled, i, divisor),
-                      pushed ? &push : nullptr, simulation);
+                      pushed ? &push : nullptr, step_state);
         if (!all_whole)
-            simulation = select_flight<Tag>(V(i) < substeps, simulation, load_simulation(tag, kept, first));
-        if (!meets) continue;
-        const Simulation<V> previous = load_simulation(tag, before, first);
-        if (!hn::AllFalse(tag, near_ground(task.contact, previous, simulation, substep, size))) {
+            step_state =
+                select_step_state<Tag>(V(i) < substeps, step_state, load_step_state(tag, kept, first));
+        if (!has_contact) continue;
+        const StepState<V> previous = load_step_state(tag, before, first);
+        if (!hn::AllFalse(tag, near_ground(task.contact, previous, step_state, substep, size))) {
             std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
-            store_flight(tag, simulation, block, first);
+            store_step_state(tag, step_state, block, first);
             const double begin = step_time(task.start, task.time_step, task.first_step + number);
-            touch_ground(task.contact, before, block, first, lanes, i, parts, begin, task.time_step);
-            simulation = load_simulation(tag, block, first);
+            touch_ground(task.contact, before, block, first, lanes, i, counts, begin, task.time_step);
+            step_state = load_step_state(tag, block, first);
         }
-        store_flight(tag, simulation, before, first);
+        store_step_state(tag, step_state, before, first);
     }
-    let_others_stay();
+    keep_others_on_ground();
 }
 
 inline BatchReport advance_all(const StepConstants& c, const kernel::BlockSteps& task, StateBlock* blocks,
@@ -385,11 +389,11 @@ inline BatchReport advance_all(const StepConstants& c, const kernel::BlockSteps&
     BatchReport report;
     for (StateBlock* block = blocks; block != blocks + count; ++block) {
         for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {
-            auto simulation = load_simulation(tag, *block, first);
+            auto step_state = load_step_state(tag, *block, first);
             for (std::uint64_t number = 0; number < task.steps; ++number) {
-                advance_lanes(tag, c, task, number, *block, first, simulation, report);
+                advance_lanes(tag, c, task, number, *block, first, step_state, report);
             }
-            store_flight(tag, simulation, *block, first);
+            store_step_state(tag, step_state, *block, first);
         }
     }
     return report;

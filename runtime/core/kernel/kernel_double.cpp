@@ -10,7 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-/// Three neighbours of a vector in memory.
+/// Loads three numbers that are adjacent in memory.
 HWY_INLINE void load(const double* numbers, Triple<double>& triple) {
     triple = {numbers[0], numbers[1], numbers[2]};
 }
@@ -63,7 +63,7 @@ HWY_INLINE Vector3d vector_of(const Triple<One>& triple) {
     return v;
 }
 
-HWY_INLINE Simulation<One> simulation_of(const BodyState& state) {
+HWY_INLINE StepState<One> step_state_of(const BodyState& state) {
     const Quaterniond& q = state.orientation;
     return {triple_of(state.position),
             {One(q.w()), triple_of(q.coeffs().data())},
@@ -75,18 +75,18 @@ HWY_INLINE Simulation<One> simulation_of(const BodyState& state) {
             triple_of(state.acceleration.data() + 3),
             {One(state.wake.formed), triple_of(state.wake.heading)}};
 }
-HWY_INLINE void keep(const Simulation<One>& simulation, BodyState& state) {
-    keep(simulation.position, state.position.data());
-    keep(simulation.orientation.v, state.orientation.coeffs().data());
-    state.orientation.w() = lane(simulation.orientation.w);
-    keep(simulation.angular_velocity, state.velocity.data());
-    keep(simulation.velocity, state.velocity.data() + 3);
-    keep(simulation.seen_velocity, state.sampled_turbulence.velocity.data());
-    keep(simulation.seen_rotation, state.sampled_turbulence.angular_velocity.data());
-    keep(simulation.angular_acceleration, state.acceleration.data());
-    keep(simulation.acceleration, state.acceleration.data() + 3);
-    state.wake.formed = lane(simulation.wake.formed);
-    keep(simulation.wake.heading, state.wake.heading.data());
+HWY_INLINE void keep(const StepState<One>& step_state, BodyState& state) {
+    keep(step_state.position, state.position.data());
+    keep(step_state.orientation.v, state.orientation.coeffs().data());
+    state.orientation.w() = lane(step_state.orientation.w);
+    keep(step_state.angular_velocity, state.velocity.data());
+    keep(step_state.velocity, state.velocity.data() + 3);
+    keep(step_state.sampled_velocity, state.sampled_turbulence.velocity.data());
+    keep(step_state.sampled_rotation, state.sampled_turbulence.angular_velocity.data());
+    keep(step_state.angular_acceleration, state.acceleration.data());
+    keep(step_state.acceleration, state.acceleration.data() + 3);
+    state.wake.formed = lane(step_state.wake.formed);
+    keep(step_state.wake.heading, state.wake.heading.data());
 }
 
 /// The random numbers of one body.
@@ -101,12 +101,12 @@ struct OneDraw {
     }
     [[nodiscard]] HWY_INLINE SixNormals<Spread> six() const {
         const auto u = noise.uniforms(step, NoiseStream::sampled_turbulence);
-        const auto rest = noise.uniforms(step, NoiseStream::seen_rotation);
+        const auto rest = noise.uniforms(step, NoiseStream::sampled_rotation);
         return packed_normals(u, rest[0], rest[1]);
     }
 
   private:
-    /// six_normals(), the pairs side by side.
+    /// Returns six_normals(), computed with the pairs side by side.
     static HWY_INLINE SixNormals<Spread> packed_normals(const std::array<double, 4>& first, double fifth,
                                                         double sixth) {
         using Pairs = Lanes<FourTag>;
@@ -124,7 +124,7 @@ struct OneDraw {
         return three_normals(noise.uniforms(step, NoiseStream::sampled_turbulence));
     }
     [[nodiscard]] SixNormals<double> six() const {
-        const std::array<double, 4> rest = noise.uniforms(step, NoiseStream::seen_rotation);
+        const std::array<double, 4> rest = noise.uniforms(step, NoiseStream::sampled_rotation);
         return six_normals(noise.uniforms(step, NoiseStream::sampled_turbulence), rest[0], rest[1]);
     }
 #endif
@@ -135,36 +135,36 @@ BatchReport advance_double_blocks(const StepConstants& constants, const kernel::
     return advance_all(constants, steps, blocks, count);
 }
 
-/// A host's push, or none.
+/// Returns a host's wrench, or none.
 HWY_INLINE Push<One> push_of_one(const Wrench* external) {
     if (external == nullptr) return {no_vector<One>(), no_vector<One>()};
     return {triple_of(external->moment), triple_of(external->force)};
 }
 
-void step_one(const StepConstants& c, const Vector3d& gravity, double h, const kernel::SeenStream& stream,
-              int part, int parts, const Wrench* external, BodyState& state) {
-    Simulation<One> simulation = simulation_of(state);
+void step_one(const StepConstants& c, const Vector3d& gravity, double h, const kernel::SampledStream& stream,
+              int substep, int substeps, const Wrench* external, BodyState& state) {
+    StepState<One> step_state = step_state_of(state);
     const Push<One> push = push_of_one(external);
     const Stream<One> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation),
                             stream.on_loads_alone, triple_of(stream.wake_fluctuation)};
-    implicit_step(c, triple_of(gravity), One(h), stream.moves, part_of(whole, part, One(parts)),
-                  external == nullptr ? nullptr : &push, simulation);
-    keep(simulation, state);
+    implicit_step(c, triple_of(gravity), One(h), stream.moves, part_of(whole, substep, One(substeps)),
+                  external == nullptr ? nullptr : &push, step_state);
+    keep(step_state, state);
 }
 
 /// BegunStep in the step's numbers.
 struct Beginning {
-    int parts;
+    int substeps;
     bool sees_fluid;
     Stream<One> stream;
 };
 HWY_INLINE Beginning beginning(const StepConstants& c, double h, const kernel::WindSource& source,
-                               const Noise& noise, std::uint64_t step, Simulation<One>& simulation) {
+                               const Noise& noise, std::uint64_t step, StepState<One>& step_state) {
     Stream<One> wind = no_stream<One>();
     const bool windy = source.sample != nullptr;
     if (windy) {
         kernel::SampledWind sampled;
-        const Vector3d place = vector_of(halfway(c, One(h), simulation));
+        const Vector3d place = vector_of(halfway(c, One(h), step_state));
         for (Eigen::Index axis = 0; axis < 3; ++axis) sampled.place[axis][0] = place[axis];
         source.sample(source.context, step, 1, sampled);
         const auto first = [](const double(&rows)[3][kernel::SampledWind::size])
@@ -172,41 +172,41 @@ HWY_INLINE Beginning beginning(const StepConstants& c, double h, const kernel::W
         wind = {first(sampled.begin), first(sampled.end), first(sampled.rotation), false, no_vector<One>()};
     }
     const Stream<One> stream =
-        sample_fluid(c, One(h), windy, wind, OneDraw{noise, step}, One(1.0), simulation);
+        sample_fluid(c, One(h), windy, wind, OneDraw{noise, step}, One(1.0), step_state);
     const bool sees_fluid = windy || sees_turbulence(c);
-    return {static_cast<int>(lane(substeps_of(c, One(h), sees_fluid, stream.begin, simulation))), sees_fluid,
+    return {static_cast<int>(lane(substeps_of(c, One(h), sees_fluid, stream.begin, step_state))), sees_fluid,
             stream};
 }
 
 void begin_one(const StepConstants& c, double h, const kernel::WindSource& source, const Noise& noise,
                std::uint64_t step, BodyState& state, kernel::BegunStep& begun) {
-    Simulation<One> simulation = simulation_of(state);
-    const Beginning b = beginning(c, h, source, noise, step, simulation);
-    keep(simulation, state);
-    begun = {b.parts,
+    StepState<One> step_state = step_state_of(state);
+    const Beginning b = beginning(c, h, source, noise, step, step_state);
+    keep(step_state, state);
+    begun = {b.substeps,
              {vector_of(b.stream.begin), vector_of(b.stream.end), vector_of(b.stream.rotation), b.sees_fluid,
               b.stream.on_loads_alone, vector_of(b.stream.wake_fluctuation)}};
 }
 
 void lone_steps(const StepConstants& c, const kernel::BlockSteps& task, const Noise& noise,
                 const Wrench* external, BodyState& state, BatchReport& report) {
-    Simulation<One> simulation = simulation_of(state);
+    StepState<One> step_state = step_state_of(state);
     const Push<One> push = push_of_one(external);
     for (std::uint64_t number = 0; number < task.steps; ++number) {
         const Beginning begun =
-            beginning(c, task.time_step, task.wind, noise, task.first_step + number, simulation);
+            beginning(c, task.time_step, task.wind, noise, task.first_step + number, step_state);
         const Triple<One> gravity = triple_of(task.gravities[number]);
-        report.count(begun.parts);
-        // Most steps are whole: what follows need not wait for the division that says so.
-        const bool is_whole = begun.parts == 1;
-        const One h(is_whole ? task.time_step : task.time_step / begun.parts);
-        for (int i = 0; i < begun.parts; ++i) {
+        report.count(begun.substeps);
+        // Most steps are whole: the rest need not wait for the division that decides it.
+        const bool is_whole = begun.substeps == 1;
+        const One h(is_whole ? task.time_step : task.time_step / begun.substeps);
+        for (int i = 0; i < begun.substeps; ++i) {
             implicit_step(c, gravity, h, begun.sees_fluid,
-                          is_whole ? begun.stream : part_of(begun.stream, i, One(begun.parts)),
-                          external == nullptr ? nullptr : &push, simulation);
+                          is_whole ? begun.stream : part_of(begun.stream, i, One(begun.substeps)),
+                          external == nullptr ? nullptr : &push, step_state);
         }
     }
-    keep(simulation, state);
+    keep(step_state, state);
 }
 
 HWY_INLINE void keep_blocks(const StepConstants& c, const LoadBlocks<One>& blocks, Matrix6d& matrix) {
@@ -217,17 +217,17 @@ HWY_INLINE void keep_blocks(const StepConstants& c, const LoadBlocks<One>& block
     matrix.bottomRightCorner<3, 3>() = c.mass_scale * matrix_of(blocks.force_by_velocity);
 }
 
-void loads_of_one(const StepConstants& c, const Vector6d& velocity, const Vector3d& seen_rotation,
+void loads_of_one(const StepConstants& c, const Vector6d& velocity, const Vector3d& sampled_rotation,
                   const Vector3d& wake_fluctuation, const WakeShares& shares, LoadMatrices& loads) {
-    const Triple<One> turning = triple_of(velocity.data());
-    const Triple<One> moving = One(c.inverse_length) * triple_of(velocity.data() + 3);
+    const Triple<One> angular = triple_of(velocity.data());
+    const Triple<One> linear = One(c.inverse_length) * triple_of(velocity.data() + 3);
     const WakeShares there = c.wake_forms ? shares : WakeShares{};
     LoadBlocks<One> blocks =
-        relative_load_blocks(c, turning - triple_of(seen_rotation), moving, turning, One(there.moment));
+        relative_load_blocks(c, angular - triple_of(sampled_rotation), linear, angular, One(there.moment));
     keep_blocks(c, blocks, loads.relative);
-    add_transport(c, turning, moving, One(there.transport), blocks);
+    add_transport(c, angular, linear, One(there.transport), blocks);
     if (c.has_side_pressure) {
-        add_side_pressure(c, moving, One(c.inverse_length) * triple_of(wake_fluctuation), blocks);
+        add_side_pressure(c, linear, One(c.inverse_length) * triple_of(wake_fluctuation), blocks);
     }
     keep_blocks(c, blocks, loads.whole);
 }
@@ -239,19 +239,19 @@ void turbulence_of_one(const StepConstants& c, const Vector3d& velocity, Turbule
 
 void sampled_turbulence_of_one(const StepConstants& c, const TurbulenceLevel& level, double h,
                                const Noise& noise, std::uint64_t step, BodyState& state) {
-    Simulation<One> simulation = simulation_of(state);
+    StepState<One> step_state = step_state_of(state);
     advance_sampled_turbulence(c,
                                Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
-                               One(h), OneDraw{noise, step}.six(), simulation);
-    keep(simulation, state);
+                               One(h), OneDraw{noise, step}.six(), step_state);
+    keep(step_state, state);
 }
 
 void body_velocity_of_one(const StepConstants& c, const TurbulenceLevel& level, double h, const Noise& noise,
                           std::uint64_t step, BodyState& state) {
-    Simulation<One> simulation = simulation_of(state);
+    StepState<One> step_state = step_state_of(state);
     advance_body_velocity(c, Level<One>{One(level.turbulent_kinetic_energy), One(level.dissipation_rate)},
-                          One(h), OneDraw{noise, step}.six(), simulation);
-    keep(simulation, state);
+                          One(h), OneDraw{noise, step}.six(), step_state);
+    keep(step_state, state);
 }
 
 void one_normal_pair(double first, double second, double& a, double& b) {
@@ -282,9 +282,9 @@ BatchReport advance_blocks(const StepConstants& constants, const BlockSteps& ste
 }
 
 void implicit_step(const StepConstants& constants, const Vector3d& gravity, double h,
-                   const SeenStream& stream, int part, int parts, const Wrench* external,
+                   const SampledStream& stream, int substep, int substeps, const Wrench* external,
                    BodyState& state) noexcept {
-    HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, part, parts, external, state);
+    HWY_DYNAMIC_DISPATCH(step_one)(constants, gravity, h, stream, substep, substeps, external, state);
 }
 
 BegunStep begin_step(const StepConstants& constants, double h, const WindSource& wind, const Noise& noise,
@@ -302,10 +302,11 @@ BatchReport advance_one(const StepConstants& constants, const BlockSteps& steps,
 }
 
 LoadMatrices load_matrices(const StepConstants& constants, const Vector6d& velocity,
-                           const Vector3d& seen_rotation, const Vector3d& wake_fluctuation,
+                           const Vector3d& sampled_rotation, const Vector3d& wake_fluctuation,
                            const WakeShares& shares) noexcept {
     LoadMatrices loads;
-    HWY_DYNAMIC_DISPATCH(loads_of_one)(constants, velocity, seen_rotation, wake_fluctuation, shares, loads);
+    HWY_DYNAMIC_DISPATCH(loads_of_one)
+    (constants, velocity, sampled_rotation, wake_fluctuation, shares, loads);
     return loads;
 }
 

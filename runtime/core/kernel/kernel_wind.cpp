@@ -10,7 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-/// Numbers in and out of the lanes from `first` on.
+/// Loads and stores numbers of the lanes from `first` on.
 template <class V>
 struct WindLanes;
 template <>

@@ -14,7 +14,7 @@ std::uint64_t name_hash(std::string_view name) noexcept {
     return hash;
 }
 
-/// The middle of one of the 2^32 equal parts of (0, 1): never 0 or 1.
+/// Returns the middle of one of the 2^32 equal parts of (0, 1): never 0 or 1.
 double unit_interval(std::uint32_t bits) noexcept {
     return (bits + 0.5) * 0x1p-32;
 }

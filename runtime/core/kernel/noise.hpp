@@ -6,10 +6,10 @@
 
 namespace samara {
 
-/// What a random number is for: numbers of different streams are independent.
+/// The purpose of a random number: numbers of different streams are independent.
 enum class NoiseStream : std::uint16_t {
     sampled_turbulence = 0,
-    seen_rotation = 1,
+    sampled_rotation = 1,
     start_position = 2,
     start_angle = 3,
     table_error = 4,
@@ -26,16 +26,16 @@ class Noise {
   public:
     Noise(std::uint64_t seed, std::string_view body_name, std::uint32_t run, std::uint32_t copy) noexcept;
 
-    /// Four independent standard normal numbers (Box-Muller).
+    /// Returns four independent standard normal numbers (Box-Muller).
     [[nodiscard]] std::array<double, 4> normals(std::uint64_t step, NoiseStream stream) const noexcept;
-    /// Four independent numbers, uniform in (0, 1).
+    /// Returns four independent numbers, uniform in (0, 1).
     [[nodiscard]] std::array<double, 4> uniforms(std::uint64_t step, NoiseStream stream) const noexcept;
 
-    /// The source with these words().
+    /// Makes the source with these words().
     explicit Noise(const std::array<std::uint32_t, 4>& words) noexcept
         : key_{words[0], words[1]}, run_(words[3]), copy_(words[2]) {}
 
-    /// What the numbers are of: the key (two words), the copy and the run.
+    /// Returns the identity of the source: the key (two words), the copy and the run.
     [[nodiscard]] std::array<std::uint32_t, 4> words() const noexcept {
         return {key_[0], key_[1], copy_, run_};
     }

@@ -1,4 +1,4 @@
-// What the step's formulas are written in: double, or Lanes of a Highway vector, with the same operations.
+// The number types of the step's formulas: double, or Lanes of a Highway vector, with the same operations.
 // Included once for each instruction set (Highway), hence no plain include guard.
 #if defined(SAMARA_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SAMARA_NUMBERS_INL_H
@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr bool max_is_of_x86 =
     HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3;
 
-/// A vector of numbers: each of a body of its own, or all the same one of one body (packed-inl.h).
+/// A vector of numbers: one for each of several bodies, or equal ones of one body (packed-inl.h).
 template <class Tag, bool of_one_body = false>
 struct Lanes {
     hn::Vec<Tag> raw;
@@ -40,7 +40,7 @@ struct Lanes {
     friend HWY_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.raw); }
     friend HWY_INLINE Lanes magnitude(Lanes a) { return hn::Abs(a.raw); }
     friend HWY_INLINE Lanes whole_part(Lanes a) { return hn::Floor(a.raw); }
-    // Of NaN and a number that which stands first, as x86's own maximum has it the other way round.
+    // Returns the first of NaN and a number, where x86's own maximum returns the second.
     friend HWY_INLINE Lanes larger(Lanes a, Lanes b) {
         if constexpr (max_is_of_x86) return hn::Max(b.raw, a.raw);
         return select(a < b, b, a);
@@ -73,7 +73,7 @@ HWY_INLINE double select(bool condition, double a, double b) {
     return condition ? a : b;
 }
 
-/// Whether one of two conditions holds.
+/// Returns whether one of two conditions holds.
 HWY_INLINE bool either(bool a, bool b) {
     return a || b;
 }
@@ -147,8 +147,8 @@ struct NumberTraits<Lanes<Tag, of_one_body>> {
 /// number.
 inline constexpr double tiny = 1e-140;
 
-/// c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's rule is a
-/// long one.
+/// Returns c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's
+/// rule is a long one.
 template <int first, int stride, int N, class V>
 HWY_INLINE V polynomial_from(const double (&c)[N], V x) {
     if constexpr (first + stride >= N) {
@@ -159,14 +159,14 @@ HWY_INLINE V polynomial_from(const double (&c)[N], V x) {
                x * polynomial_from<first + stride, 2 * stride>(c, square);
     }
 }
-/// c[0] + c[1] x + ...
+/// Returns c[0] + c[1] x + ...
 template <int N, class V>
 HWY_INLINE V polynomial(const double (&c)[N], V x) {
     return polynomial_from<0, 1>(c, x);
 }
 
-/// The natural logarithm of a positive normal number: twice the series of artanh of s, |s| < 0.172, whose
-/// coefficients `c` gives.
+/// Returns the natural logarithm of a positive normal number: twice the series of artanh of s, |s| < 0.172,
+/// with the coefficients `c`.
 template <int N, class V>
 HWY_INLINE V logarithm_by(const double (&c)[N], V x) {
     using Traits = NumberTraits<V>;
@@ -178,20 +178,20 @@ HWY_INLINE V logarithm_by(const double (&c)[N], V x) {
     const V s = (mantissa - V(1.0)) / (mantissa + V(1.0));
     return exponent * V(ln2) + s * polynomial(c, s * s);
 }
-/// To its last bits.
+/// Returns the logarithm to its last bits.
 template <class V>
 HWY_INLINE V logarithm(V x) {
     return logarithm_by(
         {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21},
         x);
 }
-/// To 1e-14, and in a shorter chain.
+/// Returns the logarithm to 1e-14, in a shorter chain.
 template <class V>
 HWY_INLINE V short_logarithm(V x) {
     return logarithm_by({2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15}, x);
 }
 
-/// exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.
+/// Returns exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.
 template <class V>
 HWY_INLINE V exponential_less_one(V x) {
     constexpr double lowest = -700.0;
@@ -218,9 +218,9 @@ HWY_INLINE V exponential_less_one(V x) {
     return power * series + (power - V(1.0));
 }
 
-/// Cosine and sine of a turn's fraction u in [0, 1): of the angle 2 pi u.
+/// Computes cosine and sine of a fraction u in [0, 1) of a revolution: of the angle 2 pi u.
 template <class V>
-HWY_INLINE void cosine_and_sine_of_turn(V u, V& cosine, V& sine) {
+HWY_INLINE void cosine_and_sine_of_revolution(V u, V& cosine, V& sine) {
     const V quarters = u * V(4.0);
     const V n = whole_part(quarters + V(0.5));
     const V angle = (quarters - n) * V(1.57079632679489661923);
@@ -245,7 +245,7 @@ HWY_INLINE void cosine_and_sine_of_turn(V u, V& cosine, V& sine) {
                                   1.0 / 20922789888000};
     const V s = angle * polynomial(sines, square);
     const V c = polynomial(cosines, square);
-    // n = 0 .. 4 quarters are behind the angle.
+    // n = 0 .. 4 quarters lie below the angle.
     const V odd = n - V(2.0) * whole_part(n * V(0.5));
     const auto swapped = V(0.5) < odd;
     const V first = select(swapped, s, c);

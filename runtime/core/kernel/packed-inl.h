@@ -1,6 +1,6 @@
-// One body's numbers in vectors of their own: what for many bodies is a lane of each of three vectors is here
-// three lanes of one. The same operations in the same order, so to the same bits.
-// Included once for each instruction set (Highway), hence no plain include guard.
+// One body's numbers in vectors of their own: the three components that are lanes of three vectors for many
+// bodies are three lanes of one here. The same operations in the same order, so to the same bits. Included
+// once for each instruction set (Highway), hence no plain include guard.
 #if defined(SAMARA_PACKED_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SAMARA_PACKED_INL_H
 #undef SAMARA_PACKED_INL_H
@@ -29,12 +29,12 @@ using FourLanes = hn::Vec<FourTag>;
 /// A number of one body, in each of four lanes.
 using Spread = Lanes<FourTag, true>;
 
-/// The lanes that the two bits each of `order` name, the first lane's lowest.
+/// Returns the lanes that the two bits each of `order` name, the first lane's lowest.
 template <int order>
 HWY_INLINE FourLanes permuted(FourLanes a) {
     return FourLanes{_mm256_permute4x64_pd(a.raw, order)};
 }
-/// Those lanes of b whose bits are set, and the others of a.
+/// Returns the lanes of b whose bits are set, and the others of a.
 template <int of_b>
 HWY_INLINE FourLanes blended(FourLanes a, FourLanes b) {
     return FourLanes{_mm256_blend_pd(a.raw, b.raw, of_b)};
@@ -42,7 +42,7 @@ HWY_INLINE FourLanes blended(FourLanes a, FourLanes b) {
 
 }  // namespace HWY_NAMESPACE
 
-/// Its fourth lane has no meaning.
+/// Three numbers in a vector; its fourth lane has no meaning.
 template <>
 struct Triple<HWY_NAMESPACE::Spread> {
     HWY_NAMESPACE::FourLanes raw;
@@ -56,7 +56,8 @@ struct Triple<HWY_NAMESPACE::Spread> {
 namespace HWY_NAMESPACE {
 
 using Packed = Triple<Spread>;
-/// By its columns, unlike those of other numbers: a product with a vector is then a sum of multiples of them.
+/// A matrix by its columns, unlike those of other numbers: a product with a vector is then a sum of multiples
+/// of them.
 using PackedSquare = Square<Spread>;
 
 HWY_INLINE Spread x_of(const Packed& a) {
@@ -134,7 +135,7 @@ HWY_INLINE PackedSquare plus_diagonal(const PackedSquare& a, Spread s) {
             Packed(blended<0b0010>(a.y.raw, hn::Add(a.y.raw, s.raw))),
             Packed(blended<0b0100>(a.z.raw, hn::Add(a.z.raw, s.raw)))};
 }
-/// The columns of w^ but for their diagonal, which is -0: it adds nothing, not even a sign.
+/// Returns the columns of w^ but for their diagonal, which is -0: it adds nothing, not even a sign.
 HWY_INLINE PackedSquare cross_of(const Packed& w) {
     const auto signed_by = [](FourLanes a, double x, double y, double z) HWY_ATTR {
         return Packed(hn::Xor(a, FourLanes{_mm256_setr_pd(x, y, z, 0.0)}));
@@ -161,7 +162,7 @@ HWY_INLINE PackedSquare inverse(const PackedSquare& a) {
     return {scale * first, scale * cross(rows.z, rows.x), scale * cross(rows.x, rows.y)};
 }
 
-/// The rotation of the quaternion (w, v).
+/// Returns the rotation matrix of the quaternion (w, v).
 HWY_INLINE PackedSquare rotation_matrix(Spread w, const Packed& v) {
     constexpr int next = 0b11'00'10'01;          // y, z, x
     constexpr int next_but_one = 0b11'01'00'10;  // z, x, y
@@ -174,7 +175,7 @@ HWY_INLINE PackedSquare rotation_matrix(Spread w, const Packed& v) {
             Packed(blended<0b0100>(all.z.raw, diagonal))};
 }
 
-/// What stands in memory, beside its zero.
+/// Loads a triple from memory, with its zero.
 HWY_INLINE Packed packed(const Triple<double>& a) {
     return hn::Load(FourTag(), reinterpret_cast<const double*>(&a));
 }

@@ -8,12 +8,12 @@
 
 namespace samara {
 
-/// What bodies that are stepped together did.
+/// The steps of bodies that are stepped together.
 struct BatchReport {
     std::uint64_t implicit_steps = 0;  ///< over all bodies
-    int most_substeps = 1;             ///< that any body took in one step
-    std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, that took samara::most_substeps
-    bool wind_is_sound = true;         ///< false: a caller's wind gave what is no velocity
+    int most_substeps = 1;             ///< the most of any body in one step
+    std::uint64_t steps_at_limit = 0;  ///< steps, over all bodies, with samara::most_substeps substeps
+    bool wind_is_sound = true;         ///< false: a caller's wind gave a velocity that is not finite
 
     /// Counts one step of one body that was cut into `substeps`.
     void count(int substeps) noexcept {
@@ -34,17 +34,17 @@ struct alignas(64) StateBlock {
     static constexpr std::size_t size = 16;
     static constexpr std::size_t fields = 29;
 
-    /// Position, orientation (w, x, y, z), angular velocity, velocity, seen velocity, seen rotation,
+    /// Position, orientation (w, x, y, z), angular velocity, velocity, sampled velocity, sampled rotation,
     /// acceleration (angular, linear), formed wake, heading.
     double numbers[fields][size];
-    /// Of each body, over the shape's. The numbers of a body of another size are those of the shape's own
-    /// that moves alike (body_size.hpp).
+    /// The size of each body relative to the shape's. The numbers of a body of another size are those of the
+    /// shape's own motion that is similar (body_size.hpp).
     double size_of[size];
     std::uint32_t noise[4][size];    ///< key (2), copy, run
     std::uint32_t at_rest[size];     ///< 0 or 1
     std::uint64_t bodies;            ///< lanes in use
     std::uint64_t first_body;        ///< number in the batch of lane 0
-    std::uint64_t first_step[size];  ///< before it the body waits where it is
+    std::uint64_t first_step[size];  ///< before it the body waits in its place
     std::uint64_t last_start;        ///< the largest of them
 };
 
@@ -84,7 +84,7 @@ inline void keep_state(const BodyState& state, StateBlock& block, std::size_t la
     block.at_rest[lane] = state.at_rest ? 1 : 0;
 }
 
-/// Whether a body rests on the ground and sees no turbulence.
+/// Returns whether a body rests on the ground and samples no turbulence.
 inline bool lies_in_stillness(const StateBlock& block, std::size_t lane) noexcept {
     return block.at_rest[lane] != 0 &&
            std::all_of(block.numbers + 13, block.numbers + 19,

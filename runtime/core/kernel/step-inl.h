@@ -8,41 +8,41 @@
 #endif
 
 #include "samara/core/kernel/body_state.hpp"
-#include "samara/core/kernel/wake-inl.h"
+#include "samara/core/kernel/loads-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-/// BodyState (step.hpp) in the step's numbers.
+/// BodyState of body_state.hpp in the step's numbers.
 template <class V>
-struct Simulation {
+struct StepState {
     Triple<V> position;
-    Turn<V> orientation;
+    Quaternion<V> orientation;
     Triple<V> angular_velocity, velocity;
-    Triple<V> seen_velocity, seen_rotation;
+    Triple<V> sampled_velocity, sampled_rotation;
     Triple<V> angular_acceleration, acceleration;
     WakeState<V> wake;
 };
 
-/// The velocity (or acceleration) of the centroid from that of the centre of mass: l is taken out of it.
+/// Returns the velocity (or acceleration) of the centroid from that of the centre of mass, in units of l.
 template <class V>
-HWY_INLINE Triple<V> to_centroid(const StepConstants& c, const Triple<V>& turning,
+HWY_INLINE Triple<V> to_centroid(const StepConstants& c, const Triple<V>& angular,
                                  const Triple<V>& velocity) {
     if (!c.off_center) return V(c.inverse_length) * velocity;
-    return V(c.inverse_length) * (velocity + cross(turning, broadcast<V>(c.center_of_buoyancy)));
+    return V(c.inverse_length) * (velocity + cross(angular, broadcast<V>(c.center_of_buoyancy)));
 }
-/// The reverse of to_centroid.
+/// Returns the velocity of the centre of mass: the inverse of to_centroid().
 template <class V>
-HWY_INLINE Triple<V> from_centroid(const StepConstants& c, const Triple<V>& turning,
+HWY_INLINE Triple<V> from_centroid(const StepConstants& c, const Triple<V>& angular,
                                    const Triple<V>& velocity) {
     if (!c.off_center) return V(c.length) * velocity;
-    return V(c.length) * velocity - cross(turning, broadcast<V>(c.center_of_buoyancy));
+    return V(c.length) * velocity - cross(angular, broadcast<V>(c.center_of_buoyancy));
 }
 
-/// The velocity of the centroid, in l a second.
+/// Returns the velocity of the centroid, in l a second.
 template <class V>
-HWY_INLINE Triple<V> centroid_velocity(const StepConstants& c, const Simulation<V>& simulation) {
-    return to_centroid(c, simulation.angular_velocity, simulation.velocity);
+HWY_INLINE Triple<V> centroid_velocity(const StepConstants& c, const StepState<V>& step_state) {
+    return to_centroid(c, step_state.angular_velocity, step_state.velocity);
 }
 
 template <class V>
@@ -50,66 +50,69 @@ struct Velocities {
     Triple<V> omega, velocity;
 };
 
-/// The sampled turbulence's velocity (m/s, world axes) when a step begins and when it ends: between them it
-/// changes evenly. Its rotation (rad/s) is held. Where it is a slip of the loads alone it does neither.
+/// The sampled turbulence's velocity (m/s, world axes) at the begin and the end of a step: between them it
+/// changes evenly. Its rotation (rad/s) is held. Where it affects the loads alone it neither changes nor
+/// rotates.
 template <class V>
 struct Stream {
     Triple<V> begin, end, rotation;
     bool on_loads_alone = false;
-    Triple<V> wake_fluctuation;  ///< of the wake, in it
+    Triple<V> wake_fluctuation;  ///< the part by the body's own wake
 };
 
-/// The stream of the part `i` of a step that is cut into `parts`, from that of the whole step.
+/// Returns the stream of substep `i` of a step that is cut into `substeps`, from that of the whole step.
 template <class V>
-HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V parts) {
+HWY_INLINE Stream<V> part_of(const Stream<V>& whole, int i, V substeps) {
     if (whole.on_loads_alone) return whole;
     const Triple<V> difference = whole.end - whole.begin;
-    const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / parts) * difference;
-    const Triple<V> end = whole.begin + (V(i + 1) / parts) * difference;
-    return {begin, select(V(i + 1) < parts, end, whole.end), whole.rotation, false, whole.wake_fluctuation};
+    const Triple<V> begin = i == 0 ? whole.begin : whole.begin + (V(i) / substeps) * difference;
+    const Triple<V> end = whole.begin + (V(i + 1) / substeps) * difference;
+    return {begin, select(V(i + 1) < substeps, end, whole.end), whole.rotation, false,
+            whole.wake_fluctuation};
 }
 
-/// A host's push: moment about the centre of mass and force (world axes, in the shape's own units).
+/// A host's wrench: moment about the centre of mass and force (world axes, in the shape's own units).
 template <class V>
 struct Push {
     Triple<V> moment, force;
 };
 
-/// What the passes over one step share: its start. Velocities are those relative to the sampled turbulence.
+/// The start of a step, which its passes share. Velocities are relative to the sampled turbulence.
 template <class V>
 struct StepStart {
     V h;
     Triple<V> omega, velocity;
-    Triple<V> gravity, seen_rotation, wake_fluctuation;  // body axes
-    WakeState<V> wake;                                   // when the step begins
-    bool fluid_turns;
+    Triple<V> gravity, sampled_rotation, wake_fluctuation;  // body axes
+    WakeState<V> wake;                                      // at the begin of the step
+    bool fluid_rotates;
     bool is_pushed;
     Push<V> push;  // body axes, about the centroid
-    /// Whether the body turns by more than a radian: its system is then solved once more for what rounding
-    /// left, since the elimination does not look for the best pivots.
-    typename NumberTraits<V>::Mask wild;
+    /// Whether the body rotates by more than a radian: its system is then solved once more for the rounding
+    /// errors, since the elimination does not look for the best pivots.
+    typename NumberTraits<V>::Mask rotates_far;
 };
 
-/// The velocities inside the step, how they differ from the start's, and the turn they were found with.
+/// The velocities in the middle of the step, their differences from the start's, and the rotation they were
+/// found with.
 template <class V>
 struct StepMiddle {
     Triple<V> omega, velocity;
     Velocities<V> change;
-    Triple<V> half_turn;
+    Triple<V> half_rotation;
     V theta;
-    V stiffness;  // of the moving
+    V stiffness;  // of the translation
 };
 
-/// What a step may be off by, over the body's speed, where its middle is found in one pass; and how stiff its
-/// drag may be there (at 1 the one pass would hardly settle at the terminal speed, with h D / K above it
-/// not).
+/// The error of a step, relative to the body's speed, up to which its middle is found in one pass; and the
+/// stiffness of its drag up to which that may be so (at 1 one pass would hardly settle at the terminal speed,
+/// above it, with h D / K, not at all).
 inline constexpr double one_pass_tolerance = 3e-5;
 inline constexpr double one_pass_stiffness = 0.5;
 
-/// How stiff the drag is: h max(D_ii / K_ii) of the turning and of the moving.
+/// Returns the stiffness of the drag: h max(D_ii / K_ii) of rotation and translation.
 template <class V>
 struct Stiffness {
-    V turning, moving;
+    V angular, linear;
 };
 template <class V>
 HWY_INLINE Stiffness<V> stiffness(const StepConstants& c, const LoadBlocks<V>& loads, V h) {
@@ -120,17 +123,17 @@ HWY_INLINE Stiffness<V> stiffness(const StepConstants& c, const LoadBlocks<V>& l
             of_block(loads.force_by_velocity, c.inverse_linear)};
 }
 
-/// The step's matrix by its blocks, ready to solve with.
+/// The step's matrix by its blocks, factorised for solving.
 template <class V>
 struct StepMatrix {
-    Square<V> turning, coupling, back, moving;
+    Square<V> angular, coupling, back, linear;
     Square<V> linear_inverse, linear_by_angular, angular_inverse;
 
-    /// Eliminates the velocity, and then what is left for the turning.
+    /// Eliminates the velocity, then the rest for the angular velocity.
     HWY_INLINE void factorise() {
-        linear_inverse = inverse(moving);
+        linear_inverse = inverse(linear);
         linear_by_angular = linear_inverse * back;
-        angular_inverse = inverse(turning - coupling * linear_by_angular);
+        angular_inverse = inverse(angular - coupling * linear_by_angular);
     }
     [[nodiscard]] HWY_INLINE Velocities<V> solved_for(const Triple<V>& moment, const Triple<V>& force) const {
         const Triple<V> rest = linear_inverse * force;
@@ -139,29 +142,29 @@ struct StepMatrix {
     }
 };
 
-/// What stands still against the world while the body turns under it by half a step.
+/// Rotates a vector that is fixed in the world back by the body's rotation in half a step.
 template <class V>
 struct HalfTurn {
-    Triple<V> half_turn;
-    HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return turned_back(half_turn, a); }
+    Triple<V> half_rotation;
+    HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return rotated_back(half_rotation, a); }
 };
 
 /// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
-/// before. Its unknowns are the velocities' changes: solving for the velocities themselves would drift by a
-/// rounding error a step.
+/// before. Its unknowns are the changes of the velocities: solving for the velocities themselves would drift
+/// by a rounding error a step.
 template <class V>
 HWY_INLINE void improve(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
-    middle.half_turn = (V(0.5) * start.h) * middle.omega;
-    const HalfTurn<V> under_body{middle.half_turn};
+    middle.half_rotation = (V(0.5) * start.h) * middle.omega;
+    const HalfTurn<V> under_body{middle.half_rotation};
     const Triple<V> gravity = under_body(start.gravity);
-    // Of the linear momentum the part along the velocity (m* v, of which the unit is m*) acts as a force
-    // alone: as p x v its moment would vanish only where the v inside p and the one it acts on are parallel,
-    // and else spin even a sphere.
+    // The part of the linear momentum along the velocity (m* v, in units of m*) acts as a force alone: as p x
+    // v its moment would vanish only where the v inside p and the one it acts on are parallel, and otherwise
+    // spin even a sphere.
     StepMatrix<V> matrix;
-    matrix.turning = broadcast_symmetric<V>(c.inertia_angular);
+    matrix.angular = broadcast_symmetric<V>(c.inertia_angular);
     const Square<V> directed_inertia = broadcast_symmetric<V>(c.directed_inertia);
-    matrix.moving = plus_diagonal(directed_inertia, V(1.0));
-    Triple<V> angular_momentum = matrix.turning * middle.omega;
+    matrix.linear = plus_diagonal(directed_inertia, V(1.0));
+    Triple<V> angular_momentum = matrix.angular * middle.omega;
     Triple<V> momentum = directed_inertia * middle.velocity;
     if (c.coupled) {
         matrix.coupling = broadcast<V>(c.inertia_coupling);
@@ -185,12 +188,12 @@ HWY_INLINE void improve(const StepConstants& c, const StepStart<V>& start, StepM
     if (c.loads != Loads::none) {
         Shares<V> shares{V(1.0), V(1.0)};
         if (c.wake_forms) {
-            shares = shares_of(
-                wake_in_the_middle(c, start.wake, start.h, middle.omega, middle.velocity, middle.half_turn));
+            shares = shares_of(wake_in_the_middle(c, start.wake, start.h, middle.omega, middle.velocity,
+                                                  middle.half_rotation));
         }
         LoadBlocks<V> loads;
-        if (start.fluid_turns) {
-            const Triple<V> fluid_rotation = under_body(start.seen_rotation);
+        if (start.fluid_rotates) {
+            const Triple<V> fluid_rotation = under_body(start.sampled_rotation);
             loads = relative_load_blocks(c, middle.omega - fluid_rotation, middle.velocity, middle.omega,
                                          shares.moment);
             moment = moment + loads.moment_by_rotation * fluid_rotation;
@@ -202,33 +205,33 @@ HWY_INLINE void improve(const StepConstants& c, const StepStart<V>& start, StepM
         if (c.has_side_pressure)
             add_side_pressure(c, middle.velocity, under_body(start.wake_fluctuation), loads);
         const Stiffness<V> stiff = stiffness(c, loads, start.h);
-        const V z = larger(stiff.turning, stiff.moving);
+        const V z = larger(stiff.angular, stiff.linear);
         middle.theta = (V(3.0) + z) / (V(6.0) + z);
-        middle.stiffness = stiff.moving;
+        middle.stiffness = stiff.linear;
         step = middle.theta * start.h;
-        matrix.turning = matrix.turning + step * loads.moment_by_rotation;
+        matrix.angular = matrix.angular + step * loads.moment_by_rotation;
         matrix.coupling = matrix.coupling + step * loads.moment_by_velocity;
         matrix.back = matrix.back + step * loads.force_by_rotation;
-        matrix.moving = matrix.moving + step * loads.force_by_velocity;
+        matrix.linear = matrix.linear + step * loads.force_by_velocity;
         moment =
             moment - (loads.moment_by_rotation * start.omega + loads.moment_by_velocity * start.velocity);
         force = force - (loads.force_by_rotation * start.omega + loads.force_by_velocity * start.velocity);
     }
-    matrix.turning = plus_cross(matrix.turning, -step * angular_momentum);
+    matrix.angular = plus_cross(matrix.angular, -step * angular_momentum);
     matrix.coupling = plus_cross(matrix.coupling, -step * momentum);
     matrix.back = plus_cross(matrix.back, -step * momentum);
-    matrix.moving = plus_cross(matrix.moving, step * middle.omega);
+    matrix.linear = plus_cross(matrix.linear, step * middle.omega);
     matrix.factorise();
 
     const Triple<V> right_moment = step * moment;
     const Triple<V> right_force = step * force;
     Velocities<V> change = matrix.solved_for(right_moment, right_force);
-    if (NumberTraits<V>::any_of(start.wild)) {
+    if (NumberTraits<V>::any_of(start.rotates_far)) {
         const Velocities<V> more = matrix.solved_for(
-            right_moment - matrix.turning * change.omega - matrix.coupling * change.velocity,
-            right_force - matrix.back * change.omega - matrix.moving * change.velocity);
-        change.omega = select(start.wild, change.omega + more.omega, change.omega);
-        change.velocity = select(start.wild, change.velocity + more.velocity, change.velocity);
+            right_moment - matrix.angular * change.omega - matrix.coupling * change.velocity,
+            right_force - matrix.back * change.omega - matrix.linear * change.velocity);
+        change.omega = select(start.rotates_far, change.omega + more.omega, change.omega);
+        change.velocity = select(start.rotates_far, change.velocity + more.velocity, change.velocity);
     }
     middle.change = change;
     middle.omega = start.omega + change.omega;
@@ -241,14 +244,14 @@ HWY_INLINE StepMiddle<V> select(Condition condition, const StepMiddle<V>& a, con
             select(condition, a.velocity, b.velocity),
             {select(condition, a.change.omega, b.change.omega),
              select(condition, a.change.velocity, b.change.velocity)},
-            select(condition, a.half_turn, b.half_turn),
+            select(condition, a.half_rotation, b.half_rotation),
             select(condition, a.theta, b.theta),
             select(condition, a.stiffness, b.stiffness)};
 }
 
-/// Whether a guessed middle is to be improved twice: always where a body meets no noise. Noise alone, which
-/// is not smooth, is off by more in a step than what the second pass would mend. Loads and transport go with
-/// the square of the velocity: to the first order, one made from a guess that was off by d is off by 2 d / u
+/// Returns whether a guessed middle must be improved twice: always where a body has no noise. Noise, which is
+/// not smooth, has a larger error in a step than the second pass would remove. Loads and transport go with
+/// the square of the velocity: to first order, a middle from a guess with the error d has the error 2 d / u
 /// of the velocity's change. One pass is of second order too, where drag is not stiff.
 template <class V>
 HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const StepConstants& c, const StepStart<V>& start,
@@ -262,16 +265,17 @@ HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const StepConstants& c, cons
     const bool is_noisy = c.turbulence != Turbulence::none;
     const V allowed(is_noisy ? one_pass_tolerance * one_pass_tolerance / 16.0 : -1.0);
     const auto far_off = allowed * (speed * speed) < off * change;
-    return either(either(far_off, V(one_pass_stiffness) < found.stiffness), start.wild);
+    return either(either(far_off, V(one_pass_stiffness) < found.stiffness), start.rotates_far);
 }
 
-/// The middle that a second pass finds, for those where it matters. Not inlined: most steps need none.
+/// Returns the middle that a second pass finds, for bodies where it matters. Not inlined: most steps need
+/// none.
 template <class V>
 HWY_NOINLINE void find_again(const StepConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
                              typename NumberTraits<V>::Mask unsure, StepMiddle<V>& middle) {
     StepMiddle<V> found = middle;
-    // Where drag is stiff, one made from the speed alone would swing about the terminal speed: halfway to the
-    // guess lies Newton's root. Where it is not, the middle stays, of second order.
+    // Where drag is stiff, a middle from the speed alone would oscillate about the terminal speed: halfway to
+    // the guess lies Newton's root. Elsewhere the middle stays, of second order.
     const V square = middle.stiffness * middle.stiffness;
     const V back = V(0.5) * square / (V(36.0) + square);
     found.velocity = middle.velocity + back * (guess.velocity - middle.velocity);
@@ -279,7 +283,7 @@ HWY_NOINLINE void find_again(const StepConstants& c, const StepStart<V>& start, 
     middle = select(unsure, found, middle);
 }
 
-/// The middle of the step from velocities guessed there: by one pass, or where that says it matters by two.
+/// Returns the middle of the step from velocities guessed there: by one pass, or by two where it matters.
 template <class V>
 HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>& start,
                                       const Velocities<V>& guess) {
@@ -300,28 +304,28 @@ HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>
     return found;
 }
 
-/// What a step starts from. `gravity`: world axes; `velocity`: of the centre of mass, relative to the seen
-/// fluid.
+/// Returns the start of a step. `gravity`: world axes; `velocity`: of the centre of mass, relative to the
+/// sampled turbulence.
 template <class V>
 HWY_INLINE StepStart<V> step_start(const StepConstants& c, const Square<V>& to_world,
-                                   const Triple<V>& gravity, V h, bool fluid_turns,
-                                   const Triple<V>& seen_rotation, const Triple<V>& velocity,
-                                   const Simulation<V>& simulation) {
+                                   const Triple<V>& gravity, V h, bool fluid_rotates,
+                                   const Triple<V>& sampled_rotation, const Triple<V>& velocity,
+                                   const StepState<V>& step_state) {
     StepStart<V> start;
     start.h = h;
-    start.omega = simulation.angular_velocity;
-    start.velocity = to_centroid(c, simulation.angular_velocity, velocity);
+    start.omega = step_state.angular_velocity;
+    start.velocity = to_centroid(c, step_state.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
-    start.wake = simulation.wake;
-    start.fluid_turns = fluid_turns;
-    start.seen_rotation = fluid_turns ? transposed_times(to_world, seen_rotation) : no_vector<V>();
+    start.wake = step_state.wake;
+    start.fluid_rotates = fluid_rotates;
+    start.sampled_rotation = fluid_rotates ? transposed_times(to_world, sampled_rotation) : no_vector<V>();
     const V munk_rate(c.munk_rate);
-    start.wild = V(1.0) < (h * h) * (dot(start.omega, start.omega) +
-                                     (munk_rate * munk_rate) * dot(start.velocity, start.velocity));
+    start.rotates_far = V(1.0) < (h * h) * (dot(start.omega, start.omega) +
+                                            (munk_rate * munk_rate) * dot(start.velocity, start.velocity));
     return start;
 }
 
-/// A push in body axes about the centroid, over m* and l.
+/// Returns a host's wrench in body axes about the centroid, in units of m* and l.
 template <class V>
 HWY_INLINE Push<V> push_at_centroid(const StepConstants& c, const Square<V>& to_world, const Push<V>& push) {
     const V force_unit(c.inverse_length / c.mass_scale);
@@ -331,28 +335,28 @@ HWY_INLINE Push<V> push_at_centroid(const StepConstants& c, const Square<V>& to_
     return {(force_unit * V(c.inverse_length)) * moment, force_unit * force};
 }
 
-/// Whether a body that meets turbulence sees it as a moving fluid.
+/// Returns whether turbulence is a moving fluid for the body.
 HWY_INLINE bool sees_turbulence(const StepConstants& c) {
     return c.turbulence != Turbulence::none && c.langevin != Langevin::body_velocity;
 }
 
-/// One implicit step over h under a gravity (world axes). The middle of the step is guessed by the
+/// Takes one implicit step over h under a gravity (world axes). The middle of the step is guessed by the
 /// acceleration of the step before; two passes make it good to second order and more, of which with noise the
-/// second is taken where the first says that it matters.
+/// second is taken only where the first says that it matters.
 ///
-/// Where the body sees fluid, the step is taken in the frame of that uniform stream, as in that of a current:
-/// velocities are relative to it, and its acceleration is taken off gravity, for body and displaced fluid
-/// alike (docs/theory, "The sampled turbulence"). `push`: null where there is none.
+/// Where the body samples turbulence, the step is taken in the frame of that uniform stream, as in that of a
+/// current: velocities are relative to it, and its acceleration is subtracted from gravity, for body and
+/// displaced fluid alike (docs/theory, "The sampled turbulence"). `push`: null where there is none.
 template <class V>
 HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
-                              const Stream<V>& stream, const Push<V>* push, Simulation<V>& simulation) {
-    const Square<V> to_world = rotation_matrix(simulation.orientation);
+                              const Stream<V>& stream, const Push<V>* push, StepState<V>& step_state) {
+    const Square<V> to_world = rotation_matrix(step_state.orientation);
     const V half = V(0.5) * h;
     const V rate = V(1.0) / h;
-    Triple<V> relative_velocity = simulation.velocity;
+    Triple<V> relative_velocity = step_state.velocity;
     Triple<V> apparent_gravity = gravity;
-    Triple<V> guess_acceleration = simulation.acceleration;
-    Triple<V> pushed = no_vector<V>();  // by the stream's acceleration, about
+    Triple<V> guess_acceleration = step_state.acceleration;
+    Triple<V> pushed = no_vector<V>();  // caused by the stream's acceleration, about
     if (sees_fluid) {
         relative_velocity = relative_velocity - transposed_times(to_world, stream.begin);
     }
@@ -364,7 +368,7 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
         guess_acceleration = guess_acceleration + pushed;
     }
     StepStart<V> start = step_start(c, to_world, apparent_gravity, h, fluid_changes, stream.rotation,
-                                    relative_velocity, simulation);
+                                    relative_velocity, step_state);
     start.wake_fluctuation = c.has_side_pressure
                                  ? V(c.inverse_length) * transposed_times(to_world, stream.wake_fluctuation)
                                  : no_vector<V>();
@@ -373,55 +377,55 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
         start.is_pushed ? push_at_centroid(c, to_world, *push) : Push<V>{no_vector<V>(), no_vector<V>()};
     const StepMiddle<V> found = found_middle(
         c, start,
-        {start.omega + half * simulation.angular_acceleration,
-         start.velocity + half * to_centroid(c, simulation.angular_acceleration, guess_acceleration)});
+        {start.omega + half * step_state.angular_acceleration,
+         start.velocity + half * to_centroid(c, step_state.angular_acceleration, guess_acceleration)});
     if (c.wake_forms) {
-        simulation.wake =
-            wake_in_the_end(c, simulation.wake, h, found.omega, found.velocity, found.half_turn);
+        step_state.wake =
+            wake_in_the_end(c, step_state.wake, h, found.omega, found.velocity, found.half_rotation);
     }
 
-    // The same turn that carried gravity: what gravity works is then what the height gives.
+    // The same rotation as gravity's: the work of gravity is then exactly that of the height.
     const Triple<V> middle_velocity = from_centroid(c, found.omega, found.velocity);
-    simulation.position =
-        simulation.position + h * (to_world * turned_back(-found.half_turn, middle_velocity));
-    simulation.orientation = turned_by(simulation.orientation, found.half_turn);
+    step_state.position =
+        step_state.position + h * (to_world * rotated_back(-found.half_rotation, middle_velocity));
+    step_state.orientation = rotated_by(step_state.orientation, found.half_rotation);
     const V whole = V(1.0) / found.theta;
     const Triple<V> rotation_change = whole * found.change.omega;
     const Triple<V> velocity_change = from_centroid(c, rotation_change, whole * found.change.velocity);
-    simulation.angular_acceleration = rate * rotation_change;
-    simulation.acceleration = rate * velocity_change;
-    simulation.angular_velocity = simulation.angular_velocity + rotation_change;
-    simulation.velocity = relative_velocity + velocity_change;
+    step_state.angular_acceleration = rate * rotation_change;
+    step_state.acceleration = rate * velocity_change;
+    step_state.angular_velocity = step_state.angular_velocity + rotation_change;
+    step_state.velocity = relative_velocity + velocity_change;
     if (sees_fluid) {
-        simulation.position = simulation.position +
+        step_state.position = step_state.position +
                               (stream.on_loads_alone ? h * stream.begin : half * (stream.begin + stream.end));
-        simulation.velocity =
-            simulation.velocity + transposed_times(rotation_matrix(simulation.orientation), stream.end);
+        step_state.velocity =
+            step_state.velocity + transposed_times(rotation_matrix(step_state.orientation), stream.end);
     }
-    if (fluid_changes) simulation.acceleration = simulation.acceleration - pushed;
+    if (fluid_changes) step_state.acceleration = step_state.acceleration - pushed;
 }
 
-/// The rate (1/s) at which the body turns, or would turn by its Munk moment in a sampled turbulence (m/s,
-/// world axes).
+/// Returns the rate (1/s) at which the body rotates, or would rotate by its Munk moment in a sampled
+/// turbulence (m/s, world axes).
 template <class V>
-HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple<V>& seen_velocity,
-                           const Simulation<V>& simulation) {
-    Triple<V> velocity = centroid_velocity(c, simulation);
+HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple<V>& sampled_velocity,
+                           const StepState<V>& step_state) {
+    Triple<V> velocity = centroid_velocity(c, step_state);
     if (sees_fluid) {
         velocity = velocity - V(c.inverse_length) *
-                                  transposed_times(rotation_matrix(simulation.orientation), seen_velocity);
+                                  transposed_times(rotation_matrix(step_state.orientation), sampled_velocity);
     }
-    return root(dot(simulation.angular_velocity, simulation.angular_velocity)) +
+    return root(dot(step_state.angular_velocity, step_state.angular_velocity)) +
            V(c.munk_rate) * root(dot(velocity, velocity));
 }
 
-/// Into how many equal parts the step is cut: each turns the body by at most 0.3 rad, as far as the limit on
-/// their number allows. `seen_velocity`: when the step begins (m/s, world axes).
+/// Returns the number of substeps of the step: each rotates the body by at most 0.3 rad, as far as the limit
+/// on their number allows. `sampled_velocity`: at the begin of the step (m/s, world axes).
 template <class V>
-HWY_INLINE V substeps_of(const StepConstants& c, V h, bool sees_fluid, const Triple<V>& seen_velocity,
-                         const Simulation<V>& simulation) {
-    const V turns = h * rotation_rate(c, sees_fluid, seen_velocity, simulation) * V(1.0 / 0.3);
-    return -whole_part(-smaller(V(most_substeps), larger(V(1.0), turns)));
+HWY_INLINE V substeps_of(const StepConstants& c, V h, bool sees_fluid, const Triple<V>& sampled_velocity,
+                         const StepState<V>& step_state) {
+    const V substeps = h * rotation_rate(c, sees_fluid, sampled_velocity, step_state) * V(1.0 / 0.3);
+    return -whole_part(-smaller(V(most_substeps), larger(V(1.0), substeps)));
 }
 
 }  // namespace samara::HWY_NAMESPACE

@@ -7,37 +7,37 @@
 
 namespace samara {
 
-/// What one load brings, of one cache line.
+/// Numbers of one load instruction, from one cache line.
 struct alignas(4 * sizeof(double)) FourNumbers {
     double numbers[4];
 };
 
-/// Rows of numbers over the octahedral map of directions and the logarithm of the Reynolds number
-/// (load_tables.hpp), as the step reads them: each node's numbers side by side.
+/// A table over the octahedral map of directions and the logarithm of the Reynolds number (load_tables.hpp),
+/// as the step reads it: each node's numbers side by side.
 struct DirectionTable {
     int width = 4;                            ///< numbers a node, a multiple of four
     int side = 3;                             ///< nodes a side of the map
-    bool turned = false;                      ///< whether the map's axes are not the body's
+    bool rotated = false;                     ///< whether the map's axes are not the body's
     Square<double> to_map_axes{};             ///< body axes -> map axes
     std::vector<double> reynolds_numbers;     ///< ascending
-    std::vector<double> logarithms;           ///< of them
-    std::vector<double> inverse_differences;  ///< between neighbours of these
+    std::vector<double> logarithms;           ///< of the Reynolds numbers
+    std::vector<double> inverse_differences;  ///< one over the difference of neighbouring logarithms
     std::vector<FourNumbers> rows;            ///< ((plane * side + row) * side + column) * width / 4
 
     [[nodiscard]] int planes() const { return static_cast<int>(logarithms.size()); }
     [[nodiscard]] const double* numbers() const { return reinterpret_cast<const double*>(rows.data()); }
 };
 
-/// A part of the surface, which feels its part of a steady force at its own velocity.
+/// A part of the surface, on which its part of a steady force depends on its own velocity.
 struct LoadPatch {
-    Triple<double> place{};  ///< over l, from the middle of all
+    Triple<double> place{};  ///< in units of l, from the middle of all
     double share = 1;        ///< all add up to one
-    DirectionTable force;    ///< on its own faces; without rows it feels its share of the whole's
+    DirectionTable force;    ///< on its own faces; without rows it bears its share of the whole's
 };
 
-/// What the step needs of a body, worked out once. Body axes about the centroid; lengths are in the power of
-/// two l (m) nearest to the body's L, so that they convert without rounding, and masses in m*, a third of the
-/// trace of K's linear block: all numbers are near one.
+/// The constants of a body for the step, computed once. Body axes about the centroid; lengths are in units of
+/// l (m), the power of two nearest to the body's L, so that they convert without rounding, and masses in
+/// units of m*, a third of the trace of K's linear block: all numbers are near one.
 struct StepConstants {
     double length = 1;                    ///< l (m)
     double inverse_length = 1;            ///< 1/m
@@ -54,22 +54,22 @@ struct StepConstants {
     double weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
     Triple<double> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
     double tip_square = 0;           ///< (L / (2 l))^2
-    double munk_rate = 0;            ///< times the speed: the rate at which the Munk moment turns the body
+    double munk_rate = 0;            ///< times the speed: the rate at which the Munk moment rotates the body
 
     Loads loads = Loads::none;
-    double steady_factor = 0;           ///< rho_f A l / (2 m*)
-    double reynolds_factor = 0;         ///< L l / nu (s)
-    DirectionTable loads_by_direction;  ///< force, 0, moment L/l less what patches make of
-                                        ///< it, 0; or the area over A and zeros
-    std::vector<LoadPatch> patches;     ///< one at least
+    double steady_factor = 0;    ///< rho_f A l / (2 m*)
+    double reynolds_factor = 0;  ///< L l / nu (s)
+    /// Force, 0, moment L/l less the patches' part of it, 0; or the area relative to A and zeros.
+    DirectionTable loads_by_direction;
+    std::vector<LoadPatch> patches;  ///< one at least
     double drag_coefficient = 0;
     double twice_lift_coefficient = 0;
     Triple<double> normal{};
-    Triple<double> center_of_pressure{};  ///< over l, from the centroid
+    Triple<double> center_of_pressure{};  ///< in units of l, from the centroid
 
     bool wake_forms = false;                    ///< whether the loads wait for the wake to form
-    Square<double> squared_formation_length{};  ///< ImmersedBody's, over l^2
-    double settling_over_formation = 1;         ///< the way of forming over that of settling
+    Square<double> squared_formation_length{};  ///< ImmersedBody's, in units of l^2
+    double settling_over_formation = 1;         ///< the distance of formation over that of settling
     bool has_spin_about_symmetry = false;       ///< whether the next is not zero
     Square<double> spin_about_symmetry{};       ///< ImmersedBody's
     Square<double> potential_transport{};  ///< rho_f (M - T) / m* over steady_factor, less its isotropic part
@@ -80,7 +80,7 @@ struct StepConstants {
     Square<double> coupling_transport{};     ///< t rho_f C / (m* l)
     Square<double> drag_in_motion{};         ///< rho_f l C_m A / (2 m*)
     Square<double> rotational_drag{};        ///< rho_f C_w D / (2 m* l)
-    bool has_roll_drag = false;              ///< whether the next is asked for
+    bool has_roll_drag = false;              ///< whether the next is not zero
     Square<double> lacking_roll_drag{};      ///< rho_f R / (2 m* l)
     bool has_side_pressure = false;          ///< whether the next is not zero: of a wake that fluctuates
     Square<double> side_pressure{};  ///< wake_side_pressure S/A steady_factor, S the projected areas (m^2)
@@ -88,9 +88,9 @@ struct StepConstants {
     Square<double> drag_in_spin{};   ///< rho_f l C_s A / (2 m*)
     Square<double> rotational_drag_in_spin{};  ///< rho_f C_r D / (2 m* l)
     double half_length = 0;                    ///< c / l
-    double creeping_turn = 0;                  ///< pi mu L^3 / (m* l^2) (1/s)
+    double creeping_rotation = 0;              ///< pi mu L^3 / (m* l^2) (1/s)
     double creeping_drag = 0;                  ///< 3 pi mu L / m* (1/s); 0 of loads by coefficients
-    double creeping_fades = 0;                 ///< 1/Re where that has faded out; 0: nowhere
+    double creeping_fades = 0;                 ///< 1/Re at which creeping_drag has faded out; 0: nowhere
 
     Turbulence turbulence = Turbulence::none;
     Langevin langevin = Langevin::sampled_turbulence;  ///< wake: of tables alone
@@ -98,5 +98,22 @@ struct StepConstants {
     double turbulent_kinetic_energy = 0;               ///< m^2/s^2, where constant
     double dissipation_rate = 0;                       ///< m^2/s^3, where constant
 };
+
+/// The fluctuation of the loads by a body's own wake, as if the relative velocity fluctuated:
+/// wake_fluctuation_share is the rms of each component over the root of 2k/3, and wake_persistence the time
+/// scale over L/|w|. Where k is zero the flow is laminar, and does not fluctuate. The pressure of shed
+/// vortices also acts on the body's sides: a force across the path of rho |w|/2 times the velocity
+/// fluctuation, times the body's projected area in the force's direction, times wake_side_pressure. Measured
+/// on a sphere, a disc, an ellipsoid and a sheet that are held (docs/studies/noise).
+inline constexpr double wake_fluctuation_share = 0.3;
+inline constexpr double wake_side_pressure = 1.15;
+inline constexpr double wake_persistence = 2.5;
+
+/// A rotating body sheds in phase with its rotation: the rms of the fluctuation is multiplied by w^2 / (w^2 +
+/// (wake_order L omega)^2). Chosen by ensembles of falls of two discs (docs/studies/noise).
+inline constexpr double wake_order = 4.0;
+
+/// C_k of the paper's eq. 7; Pope, Phys. Fluids 26 (1983).
+inline constexpr double kolmogorov_constant = 2.1;
 
 }  // namespace samara

@@ -33,7 +33,7 @@ HWY_INLINE Triple<V> first_three(const Quad<V>& numbers) {
 }
 
 /// A place in a table: the first of its four corners (its first number's index), the corners' weights, and
-/// the way from this plane to the next.
+/// the offset from this plane to the next.
 template <class V>
 struct Place;
 
@@ -70,7 +70,7 @@ HWY_INLINE void keep_weight(Lanes<Tag> weight, int corner, Place<Lanes<Tag>>& pl
 #if SAMARA_PACKS_ONE_BODY
 template <>
 struct Quad<Spread> {
-    Packed numbers;  // the fourth as well
+    Packed numbers;  // the fourth too
 };
 template <>
 struct Place<Spread> {
@@ -80,7 +80,7 @@ struct Place<Spread> {
 };
 #endif
 
-/// The cell of a place along one axis, from 0 to `last`, and how far into it the place lies. NaN goes to 0.
+/// Returns the cell of a place along one axis, from 0 to `last`, and the place within it. NaN goes to 0.
 template <class V>
 HWY_INLINE V cell_of(V place, V last, V& fraction) {
     const V cell = smaller(last, larger(V(0.0), whole_part(place)));
@@ -88,7 +88,7 @@ HWY_INLINE V cell_of(V place, V last, V& fraction) {
     return cell;
 }
 
-/// The plane below a Reynolds number, and how far it lies from there to the next.
+/// Returns the plane below a Reynolds number, and its place between that and the next.
 template <class V>
 HWY_INLINE V plane_of(const DirectionTable& table, V reynolds_number, V& fraction) {
     const V zero(0.0);
@@ -108,13 +108,14 @@ HWY_INLINE V plane_of(const DirectionTable& table, V reynolds_number, V& fractio
     return plane;
 }
 
-/// octahedral_map.hpp and load_tables.hpp say what this does. `direction`: of any length.
+/// Finds the place of a direction, of any length, and a Reynolds number (octahedral_map.hpp,
+/// load_tables.hpp).
 template <class V>
 HWY_INLINE void find_place(const DirectionTable& table, const Triple<V>& direction, V reynolds_number,
                            Place<V>& place) {
     const V zero(0.0);
     const V one(1.0);
-    const Triple<V> d = table.turned ? broadcast<V>(table.to_map_axes) * direction : direction;
+    const Triple<V> d = table.rotated ? broadcast<V>(table.to_map_axes) * direction : direction;
     const V norm = larger(magnitude(d.x) + magnitude(d.y) + magnitude(d.z), V(tiny));
     const V inverse = one / norm;
     const V x = d.x * inverse;
@@ -137,7 +138,7 @@ HWY_INLINE void find_place(const DirectionTable& table, const Triple<V>& directi
     keep_weight(down * across, 3, place);
 }
 
-/// The first `quads` fours of numbers at the place's corners, weighted.
+/// Returns the first `quads` fours of numbers at the place's corners, weighted.
 template <int quads>
 HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::ptrdiff_t down,
                             const Place<double>& place, Quad<double>* sums) {
@@ -163,8 +164,8 @@ HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number,
     hn::Store(sum, piece, rows + number);
 }
 #else
-/// The fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the numbers
-/// of its i-th lane.
+/// Returns the fields of rows that stand as transposed blocks: rows[i] holds, for each block b of lanes, the
+/// numbers of its i-th lane.
 template <class Tag>
 HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
     const Tag tag;
@@ -177,15 +178,15 @@ HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
             hn::InterleaveLower(tag, second0, second1), hn::InterleaveUpper(tag, second0, second1)};
 }
 
-/// Where the numbers of one lane go so that fields_of finds them: in blocks of the 128 bits within which
-/// Highway interleaves.
+/// Returns the place of one lane's numbers for fields_of(): in blocks of the 128 bits within which Highway
+/// interleaves.
 HWY_INLINE double* piece_of_lane(double* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
     constexpr std::size_t block = 2;
     const std::size_t in_block = lane % block;
     const std::size_t row = in_block * (4 / block) + number / block;
     return rows + row * lanes + (lane - in_block);
 }
-/// Keeps a lane's numbers from `number` on, a piece of 16 bytes at a time.
+/// Stores a lane's numbers from `number` on, a piece of 16 bytes at a time.
 template <class Piece>
 HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, double* rows,
                             std::size_t lane, std::size_t lanes) {
@@ -226,7 +227,7 @@ HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::pt
     for (std::size_t quad = 0; quad < quads; ++quad) sums[quad] = fields_of<Tag>(rows + quad * 4 * lanes);
 }
 
-/// The first `quads` fours of the rows' numbers, interpolated.
+/// Returns the first `quads` fours of the rows' numbers, interpolated.
 template <int quads, class V>
 HWY_INLINE void look_up(const DirectionTable& table, const Place<V>& place, Quad<V>* result) {
     const std::ptrdiff_t right = table.width;
@@ -257,11 +258,11 @@ HWY_INLINE Packed first_three(const Quad<Spread>& quad) {
     return quad.numbers;
 }
 
-/// Of one body, both axes of the map side by side.
+/// Finds the place for one body, both axes of the map side by side.
 HWY_INLINE void find_place(const DirectionTable& table, const Packed& direction, Spread reynolds_number,
                            Place<Spread>& place) {
     using Pair = Lanes<FourTag>;
-    const Packed d = table.turned ? broadcast<Spread>(table.to_map_axes) * direction : direction;
+    const Packed d = table.rotated ? broadcast<Spread>(table.to_map_axes) * direction : direction;
     const Packed magnitudes = hn::Abs(d.raw);
     const Spread norm = larger(sum_of(magnitudes), Spread(tiny));
     const Pair there = ((Spread(1.0) / norm) * d).raw;

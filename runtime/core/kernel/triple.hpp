@@ -8,7 +8,7 @@ struct Triple {
     Number x, y, z;
 };
 
-/// Beside a zero, so that one load brings them all.
+/// The numbers with a zero, so that one load reads all three.
 template <>
 struct alignas(32) Triple<double> {
     double x, y, z;

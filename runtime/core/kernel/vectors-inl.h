@@ -22,7 +22,7 @@ template <class V>
 inline constexpr bool is_packed = false;
 #endif
 
-/// Every lane the same.
+/// Returns vectors of equal lanes.
 template <class V, class Number>
 HWY_INLINE Triple<V> broadcast(const Triple<Number>& a) {
     if constexpr (is_packed<V>) {
@@ -31,7 +31,7 @@ HWY_INLINE Triple<V> broadcast(const Triple<Number>& a) {
         return {V(a.x), V(a.y), V(a.z)};
     }
 }
-/// Of a symmetric matrix: its rows are its columns.
+/// Returns equal lanes of a symmetric matrix, whose rows are its columns.
 template <class V, class Number>
 HWY_INLINE Square<V> broadcast_symmetric(const Square<Number>& a) {
     return {broadcast<V>(a.x), broadcast<V>(a.y), broadcast<V>(a.z)};
@@ -118,7 +118,7 @@ template <class V>
 HWY_INLINE Square<V> transposed(const Square<V>& a) {
     return {{a.x.x, a.y.x, a.z.x}, {a.x.y, a.y.y, a.z.y}, {a.x.z, a.y.z, a.z.z}};
 }
-/// a^T b without the transpose.
+/// Returns a^T b without the transpose.
 template <class V>
 HWY_INLINE Triple<V> transposed_times(const Square<V>& a, const Triple<V>& b) {
     return b.x * a.x + b.y * a.y + b.z * a.z;
@@ -131,7 +131,7 @@ template <class V>
 HWY_INLINE Square<V> operator*(const Square<V>& a, const Square<V>& b) {
     return {row_times(a.x, b), row_times(a.y, b), row_times(a.z, b)};
 }
-/// a b^T.
+/// Returns a b^T.
 template <class V>
 HWY_INLINE Square<V> outer(const Triple<V>& a, const Triple<V>& b) {
     return {a.x * b, a.y * b, a.z * b};
@@ -140,12 +140,12 @@ template <class V>
 HWY_INLINE Square<V> plus_diagonal(const Square<V>& a, V s) {
     return {{a.x.x + s, a.x.y, a.x.z}, {a.y.x, a.y.y + s, a.y.z}, {a.z.x, a.z.y, a.z.z + s}};
 }
-/// The matrix of a multiple and a cross product: it takes b to s b + w x b.
+/// Returns the matrix of a multiple and a cross product: it maps b to s b + w x b.
 template <class V>
 HWY_INLINE Square<V> scaling_and_cross(V s, const Triple<V>& w) {
     return {{s, -w.z, w.y}, {w.z, s, -w.x}, {-w.y, w.x, s}};
 }
-/// a + w^, where w^ b = w x b; nothing is added to the diagonal.
+/// Returns a + w^, where w^ b = w x b; nothing is added to the diagonal.
 template <class V>
 HWY_INLINE Square<V> plus_cross(const Square<V>& a, const Triple<V>& w) {
     return {{a.x.x, a.x.y - w.z, a.x.z + w.y},
@@ -153,8 +153,8 @@ HWY_INLINE Square<V> plus_cross(const Square<V>& a, const Triple<V>& w) {
             {a.z.x - w.y, a.z.y + w.x, a.z.z}};
 }
 
-/// By the adjugate, with one division: for matrices whose symmetric part is positive definite, as their
-/// determinant then is.
+/// Returns the inverse by the adjugate, with one division: for matrices whose symmetric part is positive
+/// definite, as their determinant then is.
 template <class V>
 HWY_INLINE Square<V> inverse(const Square<V>& a) {
     const Triple<V> first = cross(a.y, a.z);
@@ -162,21 +162,21 @@ HWY_INLINE Square<V> inverse(const Square<V>& a) {
     return transposed(Square<V>{scale * first, scale * cross(a.z, a.x), scale * cross(a.x, a.y)});
 }
 
-/// (1 + w^)^-1 a for a vector w.
+/// Returns (1 + w^)^-1 a for a vector w.
 template <class V>
-HWY_INLINE Triple<V> turned_back(const Triple<V>& w, const Triple<V>& a) {
+HWY_INLINE Triple<V> rotated_back(const Triple<V>& w, const Triple<V>& a) {
     const V scale = V(1.0) / (V(1.0) + dot(w, w));
     return scale * (a - cross(w, a) + dot(w, a) * w);
 }
 
 /// A quaternion (w, x, y, z).
 template <class V>
-struct Turn {
+struct Quaternion {
     V w;
     Triple<V> v;
 };
 template <class V>
-HWY_INLINE Square<V> rotation_matrix(const Turn<V>& q) {
+HWY_INLINE Square<V> rotation_matrix(const Quaternion<V>& q) {
     if constexpr (is_packed<V>) {
         return rotation_matrix(q.w, q.v);
     } else {
@@ -199,9 +199,9 @@ HWY_INLINE Square<V> rotation_matrix(const Turn<V>& q) {
                 {xz - wy, yz + wx, one - (xx + yy)}};
     }
 }
-/// q (1, half), to unit length: Cayley's map of the turn 2 half in body axes.
+/// Returns q (1, half), to unit length: Cayley's map of the rotation 2 half in body axes.
 template <class V>
-HWY_INLINE Turn<V> turned_by(const Turn<V>& q, const Triple<V>& half) {
+HWY_INLINE Quaternion<V> rotated_by(const Quaternion<V>& q, const Triple<V>& half) {
     const V w = q.w - dot(q.v, half);
     const Triple<V> v = q.v + q.w * half + cross(q.v, half);
     const V scale = V(1.0) / root(w * w + dot(v, v));

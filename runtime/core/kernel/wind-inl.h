@@ -27,14 +27,14 @@ HWY_INLINE void add(const Triple<V>& velocity, const Square<V>& gradient, WindTh
     there.gradient = there.gradient + gradient;
 }
 
-/// (1 - exp(-q))/q for q >= 0, its derivative, and exp(-q).
+/// Computes (1 - exp(-q))/q for q >= 0, its derivative, and exp(-q).
 template <class V>
 struct Bell {
     V mean, slope, power;
 };
 template <class V>
 HWY_INLINE Bell<V> bell(V q) {
-    // Near the axis the closed forms are differences of what is nearly equal.
+    // Near the axis the closed forms are differences of nearly equal numbers.
     constexpr double means[] = {1.0, -1.0 / 2, 1.0 / 6, -1.0 / 24, 1.0 / 120, -1.0 / 720};
     constexpr double slopes[] = {-1.0 / 2, 1.0 / 3, -1.0 / 8, 1.0 / 30, -1.0 / 144, 1.0 / 840};
     constexpr double near = 0.02;
@@ -75,20 +75,20 @@ HWY_INLINE void add_profile(const WindConstants& wind, const Triple<V>& place, W
 
 template <class V>
 HWY_INLINE void add_gusts(const WindConstants& wind, const Triple<V>& place, V time, WindThere<V>& there) {
-    constexpr double turn = 6.28318530717958647693;
+    constexpr double revolution = 6.28318530717958647693;
     const Triple<V> drift = broadcast<V>(wind.drift);
     const Triple<V> carried = place - time * drift;
     const Triple<V> none = broadcast<V>(Triple<double>{0.0, 0.0, 0.0});
     WindThere<V> gusts{none, {none, none, none}, none};
     for (const GustWave& wave : wind.waves) {
         const Triple<V> number = broadcast<V>(wave.wave_number);
-        const V turns = dot(number, carried) + V(wave.phase);
+        const V revolutions = dot(number, carried) + V(wave.phase);
         V cosine;
         V sine;
-        cosine_and_sine_of_turn(turns - whole_part(turns), cosine, sine);
+        cosine_and_sine_of_revolution(revolutions - whole_part(revolutions), cosine, sine);
         const Triple<V> a = broadcast<V>(wave.a);
         const Triple<V> b = broadcast<V>(wave.b);
-        add(cosine * a + sine * b, outer(cosine * b - sine * a, V(turn) * number), gusts);
+        add(cosine * a + sine * b, outer(cosine * b - sine * a, V(revolution) * number), gusts);
     }
     add(gusts.velocity, gusts.gradient, there);
     there.rate = there.rate - gusts.gradient * drift;
@@ -100,11 +100,11 @@ HWY_INLINE void add_vortex(const VortexConstants& vortex, const Triple<V>& place
     const V zero(0.0);
     const Triple<V> axis = broadcast<V>(vortex.axis);
     const Triple<V> moved = broadcast<V>(vortex.velocity);
-    const Triple<V> way = place - broadcast<V>(vortex.position) - time * moved;
-    const Triple<V> from_axis = way - dot(axis, way) * axis;
+    const Triple<V> offset = place - broadcast<V>(vortex.position) - time * moved;
+    const Triple<V> from_axis = offset - dot(axis, offset) * axis;
     const V square = dot(from_axis, from_axis);
     const V inverse(vortex.inverse_square);
-    V rate;   // of turning
+    V rate;   // of rotation
     V slope;  // its derivative by the square
     if (vortex.rankine) {
         const auto inside = square < V(vortex.core_square);
@@ -126,15 +126,15 @@ HWY_INLINE void add_fan(const FanConstants& fan, const Triple<V>& place, WindThe
     const V zero(0.0);
     constexpr double widening = 0.107;
     const Triple<V> ahead = broadcast<V>(fan.direction);
-    const Triple<V> way = place - broadcast<V>(fan.position);
-    const V s = dot(ahead, way);
-    const Triple<V> aside = way - s * ahead;
+    const Triple<V> offset = place - broadcast<V>(fan.position);
+    const V s = dot(ahead, offset);
+    const Triple<V> aside = offset - s * ahead;
     // The bell's width and its derivatives.
     const V far = root(s * s + V(fan.width * fan.width));
     const V width = V(fan.width) + V(0.5 * widening) * (s + far);
     const V width1 = V(0.5 * widening) * (V(1.0) + s / far);
     const V width2 = V(0.5 * widening * fan.width * fan.width) / (far * far * far);
-    // The share of the air that is drawn in by there.
+    // The share of the air that is drawn in up to there.
     const V t = larger(zero, smaller(V(1.0), V(1.0) + s / V(fan.intake)));
     const V left = V(1.0) - t;
     const V share = t * t * t * (V(10.0) + t * (V(6.0) * t - V(15.0)));
@@ -151,7 +151,7 @@ HWY_INLINE void add_fan(const FanConstants& fan, const Triple<V>& place, WindThe
     const Bell<V> b = bell(q);
     const V forward = V(2.0) * flow * inverse2 * b.power;
     const V forward_s = V(2.0) * inverse2 * (flow1 - V(2.0) * flow * narrowing) * b.power;
-    // The velocity aside is `outward` times the way from the axis.
+    // The velocity across the axis is `outward` times the distance from it.
     const V drawn = flow1 * inverse2;
     const V drawn1 = (flow2 - V(2.0) * flow1 * narrowing) * inverse2;
     const V spread = V(2.0) * flow * narrowing * inverse2;
@@ -169,7 +169,7 @@ HWY_INLINE void add_fan(const FanConstants& fan, const Triple<V>& place, WindThe
     add(forward * ahead + outward * aside, gradient, there);
 }
 
-/// All of a wind at one place and time.
+/// Returns the sum of a wind's parts at one place and time.
 template <class V>
 HWY_INLINE WindThere<V> wind_at(const WindConstants& wind, const Triple<V>& place, V time) {
     const V zero(0.0);

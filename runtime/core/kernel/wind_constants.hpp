@@ -9,12 +9,12 @@ namespace samara {
 
 /// One wave of the gusts: u = a cos(2 pi p) + b sin(2 pi p), p = k.x + phase, a and b at right angles to k.
 struct GustWave {
-    Triple<double> wave_number;  ///< k: turns a metre
+    Triple<double> wave_number;  ///< k: revolutions per metre
     Triple<double> a, b;         ///< m/s
-    double phase;                ///< turns
+    double phase;                ///< revolutions
 };
 
-/// A vortex as the formulas need it: u = g(|d|^2) axis x d, with the way d from its axis.
+/// The constants of a vortex: u = g(|d|^2) axis x d, with the vector d from its axis.
 struct VortexConstants {
     bool rankine;
     Triple<double> position, axis, velocity;
@@ -23,15 +23,16 @@ struct VortexConstants {
     double inverse_square;  ///< 1/core^2
 };
 
-/// A fan: velocity from the stream function of a bell of half-width `width` (m) at the fan.
+/// The constants of a fan, whose velocity is from the stream function of a bell of half-width `width` (m) at
+/// the fan.
 struct FanConstants {
     Triple<double> position, direction;
     double width;      ///< m
     double half_flow;  ///< speed width/2 (m^2/s)
-    double intake;     ///< m: over which the air is drawn in
+    double intake;     ///< m: the distance over which the air is drawn in
 };
 
-/// A wind's numbers, as its formulas need them (docs/theory, "Wind").
+/// The constants of a wind's formulas (docs/theory, "Wind").
 struct WindConstants {
     enum class Profile { none, logarithmic, power };
     Profile profile = Profile::none;
@@ -57,8 +58,8 @@ struct alignas(64) WindBlock {
 
 namespace kernel {
 
-/// The wind at a time (s) in the first `count` lanes: for each what it is alone, to the last bit, on every
-/// instruction set.
+/// Computes the wind at a time (s) in the first `count` lanes: for each the same as alone, to the last bit,
+/// on every instruction set.
 void blow(const WindConstants& wind, double time, std::size_t count, WindBlock& block) noexcept;
 
 }  // namespace kernel

@@ -7,20 +7,21 @@
 
 namespace samara {
 
-/// Where the loads of a steady translation come from: nowhere, drag and lift coefficients, the body's tables,
+/// The source of the loads of a steady translation: none, drag and lift coefficients, the body's tables, or
 /// the pressure of the potential flow over its surface (docs/surface-loads.md).
 enum class Loads { none, coefficients, table, surface };
-/// Where the turbulence around a body comes from: nowhere, constants, the body's tables.
+/// The source of the turbulence around a body: none, constants, or the body's tables.
 enum class Turbulence { none, constant, table };
-/// What the Langevin equation moves: the fluid that the body sees as one stream; (the paper's eq. 8) the body
-/// itself; the slip by which the body's own wake makes its loads fluctuate (docs/studies/noise), which only
-/// tables know: constant turbulence, of the fluid around, is a stream then.
+/// The variable of the Langevin equation: the fluctuating fluid around the body, as one stream; the body
+/// itself (the paper's eq. 8); or the fluctuation of the relative velocity by which the body's own wake makes
+/// its loads fluctuate (docs/studies/noise). Only tables know the last; constant turbulence, of the fluid
+/// around, is a stream then.
 enum class Langevin { sampled_turbulence, body_velocity, wake };
-/// Whose coefficients give the loads of a body in motion beyond those of a steady translation: the body
-/// file's, or the defaults where it has none; the defaults; none.
+/// The source of the coefficients of the loads beyond those of a steady translation: the body file, with the
+/// defaults where it has none; the defaults; none.
 enum class Dynamic { of_body, by_default, none };
 
-/// The paper's eq. 5; what is absent is taken from the body (docs/theory.md).
+/// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body (docs/theory.md).
 struct CoefficientLoads {
     double drag_coefficient = 1.0;         ///< C_d of eq. 5
     double lift_coefficient = 0.0;         ///< C_l of eq. 5
@@ -28,33 +29,33 @@ struct CoefficientLoads {
     std::optional<Vector3d> normal;        ///< shape axes; default: the axis of the body's shortest extent
     Vector3d center_of_pressure = Vector3d::Zero();  ///< m from the centroid of the volume, shape axes
 
-    /// Member by member.
+    /// Compares member by member.
     bool operator==(const CoefficientLoads&) const = default;
 };
 
-/// What a body is physically, wherever it starts: with the shape and the fluid, all that its equations of
-/// motion hold. A member more is to be listed in visit_members() below, on which the scene file, the C
-/// interface, saved states and what is shared between equal bodies rest.
+/// The physics of a body, independent of its start: with the shape and the fluid, all that its equations of
+/// motion hold. New members must be listed in visit_members() below, on which the scene file, the C
+/// interface, saved states and the sharing between equal bodies rest.
 struct BodyPhysics {
     MassSpecification mass;         ///< density, or mass and how it is distributed; default: the body file's
     Loads loads = Loads::table;     ///< where force and moment come from
     CoefficientLoads coefficients;  ///< where the loads are coefficients
     std::optional<double> table_reynolds_number;  ///< at which alone tables are read
-    int patches = 1;         ///< of the surface, each of which meets the flow with its own velocity
-    bool added_mass = true;  ///< whether the fluid's inertia is part of the body's
-    Dynamic dynamic = Dynamic::of_body;         ///< whether the body's dynamic coefficients count
+    int patches = 1;                     ///< of the surface, each of which bears loads by its own velocity
+    bool added_mass = true;              ///< whether the fluid's inertia is part of the body's
+    Dynamic dynamic = Dynamic::of_body;  ///< whether the body's dynamic coefficients count
     Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
     double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant
     double dissipation_rate = 0.0;              ///< m^2/s^3, where turbulence is constant
     Langevin langevin = Langevin::wake;         ///< what the noise drives
 
-    /// Member by member.
+    /// Compares member by member.
     bool operator==(const BodyPhysics&) const = default;
 };
 
 /// Calls visit(key, value) for every number and choice of a (const) BodyPhysics, by the keys of the scene
-/// file. That none is left out the compiler sees: a binding names all members of a struct or does not
-/// compile.
+/// file. The compiler checks that none is left out: a structured binding names all members of a struct or
+/// does not compile.
 template <typename Physics, typename Visit>
 void visit_members(Physics& physics, const Visit& visit) {
     auto& [mass, loads, coefficients, table_reynolds_number, patches, added_mass, dynamic, turbulence,

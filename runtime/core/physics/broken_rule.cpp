@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/number_limits.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/physics/obstacle_motion.hpp"
 #include "samara/core/surface/surface_patches.hpp"
 

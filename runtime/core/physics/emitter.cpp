@@ -30,7 +30,7 @@ Emission emission(const Emitter& emitter, double time, const std::array<double, 
     const auto corner = [&](std::size_t i) {
         return surface.vertices[static_cast<std::size_t>(surface.corners[triangle][i])];
     };
-    // A uniform point of a triangle: Osada et al., Shape distributions, ACM TOG 21 (2002), eq. 1.
+    // Chooses a uniform point of the triangle: Osada et al., Shape distributions, ACM TOG 21 (2002), eq. 1.
     const double root = std::sqrt(numbers[1]);
     const Vector3d normal = area_vector(surface, triangle).normalized();
     const Vector3d point = (1.0 - root) * corner(0) + root * (1.0 - numbers[2]) * corner(1) +

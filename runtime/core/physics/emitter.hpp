@@ -10,23 +10,24 @@ namespace samara {
 /// A mesh that bodies leave, at points that are drawn uniformly over its area.
 struct Emitter {
     Obstacle mesh;              ///< its surface and keys; bodies do not touch it
-    double offset = 0.0;        ///< m: how far outside of the face a body's origin starts
-    double speed = 0.0;         ///< m/s, along the face's normal, beside the mesh's own
-    std::vector<double> areas;  ///< m^2: of each triangle and all before it
+    double offset = 0.0;        ///< m: the distance outside of the face at which a body's origin starts
+    double speed = 0.0;         ///< m/s, along the face's normal, added to the mesh's own velocity
+    std::vector<double> areas;  ///< m^2: the summed area up to and with each triangle
 };
 
-/// An emitter with its areas. Throws Error where its keys are out of order or jump: what leaves it has its
-/// velocity.
+/// Makes an emitter with its areas. Throws Error where its keys are out of order or jump, since bodies that
+/// leave the mesh have its velocity.
 Emitter make_emitter(Obstacle mesh, double offset, double speed);
 
-/// How something leaves an emitter.
+/// The start of a body at an emitter.
 struct Emission {
-    ObstaclePlace place;        ///< of the emitter's point, offset; its axes are the mesh's
-    Vector3d velocity;          ///< m/s, world: of the mesh there, and the emitter's speed
+    ObstaclePlace place;        ///< the chosen point of the mesh, offset; in the mesh's orientation
+    Vector3d velocity;          ///< m/s, world: the mesh's velocity there, and the emitter's speed
     Vector3d angular_velocity;  ///< rad/s, world: of the mesh
 };
 
-/// What leaves the emitter at a time (s, of the world) for three numbers that are uniform in (0, 1).
+/// Returns the start of a body that leaves the emitter at a time (s, of the world), for three numbers that
+/// are uniform in (0, 1).
 Emission emission(const Emitter& emitter, double time, const std::array<double, 3>& numbers);
 
 }  // namespace samara

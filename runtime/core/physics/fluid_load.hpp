@@ -4,12 +4,12 @@
 
 namespace samara {
 
-/// What the fluid does to a body in its next step, for a host that integrates the body itself. World axes, at
+/// The fluid's load on a body in its next step, for a host that integrates the body itself. World axes, at
 /// the centre of mass; six-vectors are angular, then linear.
 ///
 /// With M the body's own inertia (6x6), g its own wrench (weight, gyroscopic moment, joints, contacts), a its
 /// acceleration and h the step, M a = g + wrench - added_inertia a. The wrench holds for the velocity at the
-/// step's begin; damping is by how much it falls per velocity, so that
+/// step's begin; damping is the decrease of the wrench per velocity, so that
 ///
 ///     (M + added_inertia + h damping) a = g + wrench
 ///
@@ -17,7 +17,7 @@ namespace samara {
 /// its own, but gives -added_inertia a with the acceleration of the step before, diverges wherever it is
 /// larger than M.
 struct FluidLoad {
-    Vector6d wrench = Vector6d::Zero();         ///< N m, N: of the fluid at the velocity that the body has
+    Vector6d wrench = Vector6d::Zero();         ///< N m, N: of the fluid at the body's present velocity
     Matrix6d added_inertia = Matrix6d::Zero();  ///< kg m^2, kg m, kg; symmetric, positive semidefinite
     Matrix6d damping = Matrix6d::Zero();        ///< N m s, N s, N s/m; its symmetric part is never negative
 };

@@ -13,10 +13,10 @@ struct MassSpecification {
     std::optional<Vector3d> center_of_mass;  ///< m, shape axes; default: the centroid of the volume
     std::optional<Matrix3d> inertia;  ///< kg m^2 about the centre of mass, shape axes; default: as if uniform
 
-    /// Whether there is a mass at all.
+    /// Returns whether a density or a mass is given.
     [[nodiscard]] bool is_given() const { return density.has_value() || mass.has_value(); }
 
-    /// Member by member.
+    /// Compares member by member.
     bool operator==(const MassSpecification&) const = default;
 };
 

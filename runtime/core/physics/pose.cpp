@@ -6,7 +6,7 @@
 namespace samara {
 namespace {
 
-/// The rotation about a vector by its length (rad).
+/// Returns the rotation about a vector by its length (rad).
 Quaterniond rotation_by(const Vector3d& vector) {
     const double angle = vector.norm();
     // sin(x/2)/x near zero
@@ -17,20 +17,22 @@ Quaterniond rotation_by(const Vector3d& vector) {
     return rotation;
 }
 
-/// The rotation vector of `rotation` that is the nearest to `guess` of those that differ by whole turns.
+/// Returns the rotation vector of `rotation` that is nearest to `guess` among those that differ by whole
+/// revolutions.
 Vector3d nearest_rotation_vector(const Quaterniond& rotation, const Vector3d& guess) {
     constexpr double whole = 2.0 * std::numbers::pi;
     const double sine = rotation.vec().norm();
     const double angle = 2.0 * std::atan2(sine, rotation.w());
-    if (sine < 1e-12) {  // whole turns, whose axis only the guess knows
-        const double turns = std::round(guess.norm() / whole);
-        return turns > 0.0 ? Vector3d(turns * whole * guess.normalized()) : Vector3d(2.0 * rotation.vec());
+    if (sine < 1e-12) {  // whole revolutions, whose axis only the guess knows
+        const double revolutions = std::round(guess.norm() / whole);
+        return revolutions > 0.0 ? Vector3d(revolutions * whole * guess.normalized())
+                                 : Vector3d(2.0 * rotation.vec());
     }
     const Vector3d axis = rotation.vec() / sine;
     return (angle + whole * std::round((guess.dot(axis) - angle) / whole)) * axis;
 }
 
-/// The angular velocity, in the axes at the end, of exp(c) while c changes at `rate`.
+/// Returns the angular velocity, in the axes at the end, of exp(c) while c changes at `rate`.
 Vector3d angular_velocity_of(const Vector3d& c, const Vector3d& rate) {
     const double square = c.squaredNorm();
     const double angle = std::sqrt(square);
@@ -45,10 +47,10 @@ Vector3d angular_velocity_of(const Vector3d& c, const Vector3d& rate) {
 Pose interpolated(const Pose& before, const Pose& after, double fraction, double duration) {
     const double s = fraction;
     const double r = 1.0 - s;
-    // From the nearer end: what lies still keeps its place to the last bit, and the ends are met.
-    const Vector3d way = after.position - before.position;
-    const Vector3d place = s < 0.5 ? Vector3d(before.position + s * s * (3.0 - 2.0 * s) * way)
-                                   : Vector3d(after.position - r * r * (3.0 - 2.0 * r) * way);
+    // From the nearer end, so that what lies still keeps its place to the last bit and the ends are exact.
+    const Vector3d displacement = after.position - before.position;
+    const Vector3d place = s < 0.5 ? Vector3d(before.position + s * s * (3.0 - 2.0 * s) * displacement)
+                                   : Vector3d(after.position - r * r * (3.0 - 2.0 * r) * displacement);
     return {
         .position = place + s * r * r * duration * before.velocity - s * s * r * duration * after.velocity,
         .orientation = before.orientation.slerp(s, after.orientation),
@@ -62,17 +64,17 @@ Pose smoothly_interpolated(const Pose& before, const Pose& after, double fractio
     Pose pose = interpolated(before, after, fraction, duration);
     pose.velocity = 6.0 * s * r / duration * (after.position - before.position) +
                     r * (1.0 - 3.0 * s) * before.velocity + s * (3.0 * s - 2.0) * after.velocity;
-    // Body axes, per duration.
+    // In body axes, times the duration.
     const Vector3d first = duration * (before.orientation.conjugate() * before.angular_velocity);
     const Vector3d last = duration * (after.orientation.conjugate() * after.angular_velocity);
-    const Vector3d turn =
+    const Vector3d rotation =
         nearest_rotation_vector(before.orientation.conjugate() * after.orientation, 0.5 * (first + last));
-    const Vector3d c = s * r * (r * (first - turn) - s * (last - turn));
-    const Vector3d rate = r * (1.0 - 3.0 * s) * (first - turn) + s * (3.0 * s - 2.0) * (last - turn);
+    const Vector3d c = s * r * (r * (first - rotation) - s * (last - rotation));
+    const Vector3d rate = r * (1.0 - 3.0 * s) * (first - rotation) + s * (3.0 * s - 2.0) * (last - rotation);
     const Quaterniond correction = rotation_by(c);
-    pose.orientation = (before.orientation * rotation_by(s * turn) * correction).normalized();
+    pose.orientation = (before.orientation * rotation_by(s * rotation) * correction).normalized();
     pose.angular_velocity =
-        pose.orientation * (correction.conjugate() * turn + angular_velocity_of(c, rate)) / duration;
+        pose.orientation * (correction.conjugate() * rotation + angular_velocity_of(c, rate)) / duration;
     return pose;
 }
 

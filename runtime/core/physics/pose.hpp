@@ -12,25 +12,25 @@ struct Pose {
     Vector3d angular_velocity = Vector3d::Zero();       ///< rad/s, world axes
 };
 
-/// The place of the shape file's origin (m, world) at a pose of the centre of mass.
+/// Returns the place of the shape file's origin (m, world) at a pose of the centre of mass (m, shape axes).
 inline Vector3d shape_origin(const Pose& pose, const Vector3d& center_of_mass) {
     return pose.position - pose.orientation * center_of_mass;
 }
 
-/// A pose between two that lie `duration` (s) apart, at `fraction` (0 to 1) of it: cubic in the position, so
-/// that it agrees with the velocities at both ends, linear in these, and the shortest turn in the
-/// orientation.
+/// Returns a pose between two that lie `duration` (s) apart, at `fraction` (0 to 1) of it: cubic in the
+/// position, so that it agrees with the velocities at both ends, linear in these, and by the shortest
+/// rotation in the orientation.
 Pose interpolated(const Pose& before, const Pose& after, double fraction, double duration);
 
-/// A smooth pose between two that lie `duration` (s) apart, at `fraction` (0 to 1) of it, for frames that are
-/// far apart: both position and orientation agree with the velocities at both ends, and the velocities are
-/// their derivatives. The position is cubic. The orientation is q exp(s t) exp(c(s)) with the turn t from one
-/// pose to the other and a cubic c that is zero at both ends. Of the turns that lead there, which differ by
-/// whole ones, t is the nearest to the mean of the angular velocities times the duration. The error is of the
-/// fourth order in the duration for smooth motion.
+/// Returns a smooth pose between two that lie `duration` (s) apart, at `fraction` (0 to 1) of it, for frames
+/// that are far apart: both position and orientation agree with the velocities at both ends, and the
+/// velocities are their derivatives. The position is cubic. The orientation is q exp(s t) exp(c(s)) with the
+/// rotation t from one pose to the other and a cubic c that is zero at both ends. Of the rotations that lead
+/// there, which differ by whole revolutions, t is the nearest to the mean of the angular velocities times the
+/// duration. The error is of the fourth order in the duration for smooth motion.
 Pose smoothly_interpolated(const Pose& before, const Pose& after, double fraction, double duration);
 
-/// Gives the orientation the sign (q and -q are the same turn) that is nearer to the one before.
+/// Gives the orientation the sign (q and -q are the same rotation) that is nearer to the one before.
 void keep_sign_continuous(Quaterniond& orientation, const Quaterniond& before);
 
 }  // namespace samara

@@ -7,30 +7,31 @@
 
 namespace samara {
 
-/// How the copies of a body start.
+/// The start of the copies of a body.
 struct Release {
     Vector3d position = Vector3d::Zero();               ///< of the shape file's origin (m, world)
     Quaterniond orientation = Quaterniond::Identity();  ///< shape axes to world
     Vector3d velocity = Vector3d::Zero();               ///< of the centre of mass (m/s, world)
     Vector3d angular_velocity = Vector3d::Zero();       ///< rad/s, world
     double start = 0.0;                                 ///< s: held in place until then
-    int count = 1;                                      ///< of copies
-    Vector3d spread_position =
-        Vector3d::Zero();       ///< m: copies start within +- this of `position`, each axis uniform
-    double spread_angle = 0.0;  ///< rad: copies are turned by up to this about a random axis
-    /// Over the shape's lengths: the copies' sizes, all at one density, lie between these, their logarithms
-    /// uniform. A single copy has the two, where they are one.
+    int count = 1;                                      ///< the number of copies
+    /// m: copies start within +- this of `position`, each axis uniform
+    Vector3d spread_position = Vector3d::Zero();
+    double spread_angle = 0.0;  ///< rad: copies are rotated by up to this about a random axis
+    /// Relative to the shape's lengths: the copies' sizes, all at one density, lie between these, their
+    /// logarithms uniform. A single copy has the two, where they are equal.
     double smallest_size = 1.0, largest_size = 1.0;
     double spread_start = 0.0;  ///< s: copies start up to this after `start`, uniform, as a step begins
-    /// Where copies start instead of `position`, in its axes and with its motion; null where there is none.
+    /// The mesh where copies start instead of `position`, in its axes and with its motion; null where there
+    /// is none.
     std::shared_ptr<const Emitter> emitter = nullptr;
 
-    /// Whether copies start unlike each other: drawn from the seed, or, where there is one alone, in vain.
+    /// Returns whether a spread of the copies' starts is given. A single copy must have none.
     [[nodiscard]] bool spreads() const noexcept {
         return !spread_position.isZero(0.0) || spread_angle > 0.0 || spread_start > 0.0 ||
                smallest_size != largest_size;
     }
-    /// Whether any copy has another size than the shape's.
+    /// Returns whether any copy has another size than the shape's.
     [[nodiscard]] bool spreads_size() const noexcept {
         return (count > 1 || smallest_size == largest_size) && (smallest_size != 1.0 || largest_size != 1.0);
     }

@@ -10,15 +10,15 @@ struct Wrench {
     Vector3d force = Vector3d::Zero();
     Vector3d moment = Vector3d::Zero();
 
-    /// Whether there is nothing of either.
+    /// Returns whether force and moment are zero.
     [[nodiscard]] bool is_zero() const noexcept { return force.isZero(0.0) && moment.isZero(0.0); }
-    /// Member by member.
+    /// Compares member by member.
     bool operator==(const Wrench&) const = default;
-    /// Of a time (s) over another, as an impulse of a force; or of a number.
+    /// Scales a wrench, such as a force by a duration (s) to an impulse.
     friend Wrench operator*(double factor, const Wrench& wrench) {
         return {factor * wrench.force, factor * wrench.moment};
     }
-    /// Both together.
+    /// Adds two wrenches.
     friend Wrench operator+(const Wrench& a, const Wrench& b) {
         return {a.force + b.force, a.moment + b.moment};
     }

@@ -11,24 +11,24 @@
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/contact/ground_contact.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/loads.hpp"
-#include "samara/core/dynamics/prepared_bodies.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "samara/core/simulation/world_pose.hpp"
 
 namespace samara {
 namespace {
 
-/// The bodies' speeds and whether they are numbers are sampled after every so many steps of the grid,
+/// The number of steps of the grid between samples of the bodies' speeds and checks of their numbers,
 /// whatever times are asked for.
 constexpr std::uint64_t steps_between_samples = 32;
 
-/// That of a body; nothing where there are none.
+/// Returns the wrench of a body; zero where there are none.
 Wrench wrench_in(const std::vector<Wrench>& wrenches, std::size_t index) {
     return wrenches.empty() ? Wrench{} : wrenches[index];
 }
 
-/// The pose after steady motion over `duration` (s).
+/// Returns the pose after steady motion over `duration` (s).
 Pose carried(const Pose& pose, double duration) {
     Pose result = pose;
     result.position += duration * pose.velocity;
@@ -135,7 +135,7 @@ std::uint64_t BodyGroup::steps_until(double time) const {
 }
 
 void BodyGroup::begin_call(double time, double duration) {
-    if (time <= release_.start) wrenches_.clear();  // what waits feels none
+    if (time <= release_.start) wrenches_.clear();  // a waiting body feels none
     take_up_wrenches(duration, steps_until(time) > steps_);
 }
 
@@ -144,12 +144,12 @@ void BodyGroup::advance_to(double time, double duration) {
     begin_call(time, duration);
     if (needed <= steps_) return;
     step_to(needed - 1);
-    note_poses();
+    record_poses();
     step_to(needed);
     require_finite();
 }
 
-void BodyGroup::note_poses() {
+void BodyGroup::record_poses() {
     parallel_for(batch_.size(), poses_a_piece, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (is_removed(i)) continue;
@@ -177,13 +177,13 @@ void BodyGroup::take_up_wrenches(double duration, bool has_steps) {
         pushed_.resize(batch_.size());
         pushed_time_ += duration;
         for (std::size_t i = 0; i < pushed_.size(); ++i) {
-            // The mean over the calls since the last step, so that what is held is felt as it is.
+            // The mean over the calls since the last step, so that a constant wrench acts unchanged.
             pushed_[i] = pushed_[i] + (duration / pushed_time_) * (wrenches_[i] + -1.0 * pushed_[i]);
         }
         wrenches_.clear();
     }
     if (!has_steps || (pushed_.empty() && acting_.empty())) return;
-    // What lies still may do so by what pushed it.
+    // A body at rest may rest by its wrench, which has changed.
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         if (!(wrench_in(pushed_, i) == wrench_in(acting_, i))) wake(i);
     }
@@ -198,25 +198,25 @@ void BodyGroup::add_impulse(std::size_t index, const Wrench& impulse, double tim
     const double begin = std::clamp(time - release_.start, 0.0, end);
     Pose now = pose_in_flow(index, release_.start + begin);
     BodyState state = batch_.own_state(index);
-    // In the units of a body of the shape's size: body_size.hpp.
+    // In the units of a body of the shape's size (body_size.hpp).
     const Quaterniond to_body = state.orientation.conjugate();
     Vector6d momentum;
     momentum << to_body * impulse.moment / (size * size * size), to_body * impulse.force / (size * size);
     const Vector6d change = body_->inverse_inertia * momentum;
     state.velocity += change;
     state.at_rest = false;
-    const Vector3d turning = state.orientation * change.head<3>() / (size * size);
+    const Vector3d rotation_change = state.orientation * change.head<3>() / (size * size);
     const Vector3d moving = state.orientation * change.tail<3>() / size;
     Pose change_of_pose;
     change_of_pose.velocity = moving;
-    change_of_pose.angular_velocity = turning;
+    change_of_pose.angular_velocity = rotation_change;
     const bool waits = time < start(index);
-    const Pose way = carried(change_of_pose, waits ? 0.0 : end - begin);
-    state.position += way.position / size;
-    state.orientation = way.orientation * state.orientation;
+    const Pose displacement = carried(change_of_pose, waits ? 0.0 : end - begin);
+    state.position += displacement.position / size;
+    state.orientation = displacement.orientation * state.orientation;
     batch_.keep_own_state(index, state);
     now.velocity += moving;
-    now.angular_velocity += turning;
+    now.angular_velocity += rotation_change;
     before_[index] = now;
     before_time_[index] = begin;
 }
@@ -374,7 +374,7 @@ void BodyGroup::set_surroundings(const Surroundings& surroundings) {
         BodyState state = batch_.state(i);
         state.at_rest = false;
         if (!same_flow) {
-            // What waits is in the flow of its start.
+            // A waiting body is in the flow of its start.
             const bool waits = reached() < start(i);
             const BodyState moved = state_of(in_new_flow(flow_pose(state), std::max(reached(), start(i))));
             state.position = moved.position;

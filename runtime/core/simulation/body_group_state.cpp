@@ -1,4 +1,4 @@
-// What a state holds of a kind of bodies, and what it must be a state of.
+// The content of a state for a body group, and the description that it must fit.
 
 #include <cmath>
 #include <iterator>
@@ -70,7 +70,7 @@ void BodyGroup::write(StateWriter& writer) const {
     visit_report(report_, [&](auto number) { writer.write(number); });
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         BodyState state = batch_.own_state(i);
-        // A rest that a push is part of is to be found anew.
+        // Rest under a wrench must be judged anew.
         state.at_rest = state.at_rest && (acting_.empty() || acting_[i].is_zero());
         writer.write(state);
         writer.write(before_[i]);
@@ -84,7 +84,7 @@ bool BodyGroup::read(StateReader& reader, double time, bool keep) {
     StepReport report;
     reader.read(steps);
     visit_report(report, [&](auto& number) { reader.read(number); });
-    // Other steps would be caught up with in the next call, which may take for ever.
+    // Other numbers of steps would be caught up with in the next call, which may take for ever.
     bool sound = steps == steps_until(time);
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         BodyState state;

@@ -9,12 +9,12 @@
 namespace samara {
 namespace {
 
-// How far a body may come in a step is guessed by its velocity and gravity; where it came farther the step is
-// taken anew.
+// The factor on a body's predicted displacement in a step, by its velocity and gravity; where a body moved
+// farther the step is repeated.
 constexpr double surplus = 1.25;
 constexpr int most_guesses = 16;
-// Over the radius: what comes farther in a step is past all others between two looks, and meets none. All
-// would be near it else.
+// Relative to the radius: a body that moves farther in a step is past all others within it, and touches none.
+// Otherwise all would be near it.
 constexpr double farthest_reach = 1e6;
 
 bool sees_turbulence(const BodyState& state) {
@@ -22,7 +22,7 @@ bool sees_turbulence(const BodyState& state) {
            !state.sampled_turbulence.angular_velocity.isZero(0.0);
 }
 
-/// (omega, v) in world axes, relative to ground that moves with a velocity.
+/// Returns (omega, v) in world axes, relative to a ground with a velocity.
 Vector6d world_velocity(const BodyState& state, const Vector3d& ground_velocity) {
     Vector6d velocity;
     velocity << state.orientation * state.velocity.head<3>(),
@@ -73,7 +73,7 @@ void Broadphase::take_step(const std::vector<std::unique_ptr<BodyGroup>>& all,
         }
         if (!again) break;
     }
-    for_each_run([&](std::size_t run) { meet(runs_[run], surroundings, ground); });
+    for_each_run([&](std::size_t run) { find_islands_and_step(runs_[run], surroundings, ground); });
     for (std::size_t i = 0; i < groups.size(); ++i) groups[i]->keep_steps(reports[i], 1);
 }
 
@@ -145,7 +145,7 @@ double Broadphase::gap_between(Run& run, std::size_t a, std::size_t b) {
             &member.group->faces()};
     };
     const double gap = pair_separation(hull(first), hull(second), enough).gap;
-    run.gaps[key] = {gap, gap <= enough};  // where it is more than enough, it may be wider still
+    run.gaps[key] = {gap, gap <= enough};  // a gap of more than `enough` may be larger still
     return gap;
 }
 
@@ -174,7 +174,7 @@ void Broadphase::find_islands(Run& run) {
             grows = grows || !first.is_awake || !second.is_awake;
             first.is_awake = second.is_awake = true;
         }
-        // One that is struck may come as far as the one that strikes.
+        // A body that is struck may come as far as the one that strikes.
         for (std::size_t i = 0; i < members.size(); ++i) {
             Member& lead = members[root(i)];
             lead.reach = std::max(lead.reach, members[i].reach);
@@ -189,7 +189,7 @@ void Broadphase::find_islands(Run& run) {
     counts.assign(members.size(), 0);
     for (std::size_t i = 0; i < members.size(); ++i) ++counts[root(i)];
     for (std::size_t i = 0; i < members.size(); ++i) {
-        // root() must still find those behind it, so what is alone is marked below.
+        // root() must still find the members behind it, so single bodies are marked below.
         members[i].island = root(i);
     }
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -201,18 +201,19 @@ bool Broadphase::went_farther(Run& run, const Ground& ground) const {
     bool farther = false;
     for (Member& member : run.members) {
         const BodyState after = member.group->batch().state(member.index);
-        const double turning =
+        const double rotation =
             std::max(member.velocity.head<3>().norm(), after.velocity.head<3>().norm()) * step_;
-        const double way = (ground.in_world(after).position - member.place.position).norm() +
-                           member.radius * std::min(turning, std::numbers::pi);
-        if (!(way > member.reach)) continue;
-        member.reach = surplus * way;
+        const double displacement = (ground.in_world(after).position - member.place.position).norm() +
+                                    member.radius * std::min(rotation, std::numbers::pi);
+        if (!(displacement > member.reach)) continue;
+        member.reach = surplus * displacement;
         farther = true;
     }
     return farther;
 }
 
-void Broadphase::meet(Run& run, const Surroundings& surroundings, const Ground& ground) const {
+void Broadphase::find_islands_and_step(Run& run, const Surroundings& surroundings,
+                                       const Ground& ground) const {
     for (std::size_t lead = 0; lead < run.members.size(); ++lead) {
         if (run.members[lead].island != lead) continue;
         run.numbers.clear();
@@ -264,7 +265,7 @@ void Broadphase::collide_island(Run& run, const Surroundings& surroundings, cons
         if (has_stayed) {
             state.position = member.before.position;
             state.orientation = member.before.orientation;
-            stay_on(ground, state);
+            keep_on_ground(ground, state);
         } else {
             const Quaterniond to_body = island_body.end.orientation.conjugate();
             state.position = island_body.end.position + ground.origin;
@@ -275,7 +276,7 @@ void Broadphase::collide_island(Run& run, const Surroundings& surroundings, cons
         }
         batch.set_state(member.index, state);
         if (has_stayed && state.position == member.before.position) {
-            // Units of another size would round the place.
+            // Converting the units of another size would round the place.
             BodyState own = batch.own_state(member.index);
             own.position = member.own.position;
             batch.keep_own_state(member.index, own);

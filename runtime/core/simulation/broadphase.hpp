@@ -13,51 +13,52 @@
 
 namespace samara {
 
-/// Takes the steps of bodies that touch each other, all kinds together; those of different runs never meet.
-/// A step depends on the bodies' states before it alone, not on threads or earlier steps.
+/// Takes the steps of bodies that touch each other, all groups together; bodies of different runs never
+/// touch. A step depends on the bodies' states before it alone, not on threads or earlier steps.
 ///
-/// Bodies that may come to touch in a step are a island: they fly alone as if there were neither ground nor
-/// obstacles, and IslandStep makes of it what these and the others allow. All others fly as ever.
+/// Bodies that may touch within a step form an island: they move alone as if there were neither ground nor
+/// obstacles, and IslandStep corrects that motion for these and for each other. All other bodies are stepped
+/// as usual.
 class Broadphase {
   public:
     explicit Broadphase(double step = 0.0, int runs = 0, int threads = 1);
 
-    /// The flight's step number `number` of all kinds that have begun by then. Throws what
-    /// BodyGroup::keep_steps throws.
+    /// Takes the simulation's step number `number` for all groups that have begun by then. Throws as
+    /// BodyGroup::keep_steps() does.
     void take_step(const std::vector<std::unique_ptr<BodyGroup>>& groups, const Surroundings& surroundings,
                    std::uint64_t number);
 
   private:
-    /// A body that is there.
+    /// A body that takes part.
     struct Member {
         BodyGroup* group;
-        std::size_t index;  ///< in its kind
-        BodyState own;      ///< before the step, in the batch's numbers
-        BodyState before;   ///< the same in the world's
-        BodyPlace place;    ///< the same, in the world
-        Vector6d velocity;  ///< the same, world axes, relative to the ground
+        std::size_t index;  ///< in its group
+        BodyState own;      ///< before the step, in the batch's units
+        BodyState before;   ///< likewise, in the world's units
+        BodyPlace place;    ///< likewise, in the world
+        Vector6d velocity;  ///< likewise, world axes, relative to the ground
         ContactRecord record;
         double radius;
-        double reach;                               ///< m: no point of it comes farther in the step
-        bool is_awake;                              ///< moves, or may
-        std::size_t island = ContactBetween::none;  ///< number of the first of those that it is with
+        double reach;                               ///< m: no point of it moves farther in the step
+        bool is_awake;                              ///< whether it moves, or may move
+        std::size_t island = ContactBetween::none;  ///< the first member of its island
     };
-    /// A gap (m) between two hulls, or what it is at least.
+    /// A gap (m) between two hulls, or a lower bound of it.
     struct KnownGap {
         double gap;
         bool is_whole;  ///< whether it is the gap, not a bound
     };
-    /// The bodies of one run, and what is thought of them in a step.
+    /// The bodies of one run, and the data of a step.
     struct Run {
         std::vector<Member> members;
-        std::vector<std::pair<double, std::size_t>> order;  ///< by where they begin along x
-        std::vector<IslandStep::Pair> near;                 ///< whose spheres may meet
+        std::vector<std::pair<double, std::size_t>> order;  ///< by their lowest coordinate along x
+        std::vector<IslandStep::Pair> near;                 ///< members whose spheres may touch
         std::vector<IslandStep::Pair> pairs;                ///< of islands
         std::unordered_map<std::uint64_t, KnownGap> gaps;   ///< between hulls before the step
         std::vector<IslandBody> island_bodies;
         std::vector<std::size_t> numbers;
         IslandStep step;
-        bool is_guessed = false;  ///< whether the islands of this step have held so far
+        bool is_guessed = false;  ///< whether the predicted islands of this step have held so far
     };
 
     void gather(Run& run, std::size_t number, const std::vector<BodyGroup*>& groups,
@@ -66,7 +67,7 @@ class Broadphase {
     static void find_islands(Run& run);
     static double gap_between(Run& run, std::size_t a, std::size_t b);
     [[nodiscard]] bool went_farther(Run& run, const Ground& ground) const;
-    void meet(Run& run, const Surroundings& surroundings, const Ground& ground) const;
+    void find_islands_and_step(Run& run, const Surroundings& surroundings, const Ground& ground) const;
     void collide_island(Run& run, const Surroundings& surroundings, const Ground& ground) const;
 
     double step_;

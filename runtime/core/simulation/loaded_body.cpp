@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/dynamics/prepared_bodies.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/files/content_hash.hpp"
 
 namespace samara {

@@ -15,7 +15,7 @@ constexpr std::uint32_t state_version = 8;
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::size_t hash_size = 32;  // of content_hash
 
-// A member more would be lost: write it, and raise state_version.
+// A new member would be lost: write it, and raise state_version.
 static_assert(sizeof(BodyState) == 256 && sizeof(SampledTurbulence) == 48);
 
 [[noreturn]] void reject(const std::string& why) {
@@ -144,7 +144,7 @@ std::string_view opened_state(std::string_view bytes, std::string_view fingerpri
     if (content_hash(whole) != bytes.substr(whole.size())) reject("the state is damaged");
     const std::size_t head = seal_size() - 2 * hash_size;
     if (size < least_payload || content_hash(fingerprint) != bytes.substr(head, hash_size)) {
-        reject("the state is of a simulation with other settings, kinds or bodies");
+        reject("the state is of a simulation with other settings, body groups or bodies");
     }
     return whole.substr(head + hash_size);
 }

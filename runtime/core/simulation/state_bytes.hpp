@@ -30,7 +30,7 @@ class StateWriter {
     std::string bytes_;
 };
 
-/// Takes them apart again. The bytes must be as many as are asked for, but for those of keys.
+/// Reads what StateWriter wrote. There must be as many bytes as are asked for, except for keys.
 class StateReader {
   public:
     explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
@@ -42,36 +42,37 @@ class StateReader {
     }
     void read(BodyState& state);
     void read(Pose& pose);
-    /// Returns whether the bytes hold keys of an obstacle.
+    /// Reads keys of an obstacle; false where the bytes hold none.
     [[nodiscard]] bool read(std::vector<ObstacleKey>& keys);
-    /// Whether all bytes were read.
+    /// Returns whether all bytes were read.
     [[nodiscard]] bool at_end() const { return bytes_.empty(); }
 
   private:
     std::string_view bytes_;
 };
 
-/// Whether the numbers are those of a state or pose: finite, the orientation of length one.
+/// Returns whether the numbers are those of a state or pose: finite, the orientation of length one.
 bool is_sound(const BodyState& state);
 bool is_sound(const Pose& pose);
 
-/// How many bytes a body state and a pose take.
+/// The bytes of a body state and a pose.
 inline constexpr std::size_t body_state_bytes = 29 * sizeof(double) + sizeof(std::uint8_t);
 inline constexpr std::size_t pose_bytes = 13 * sizeof(double);
 
-/// How many bytes the keys of an obstacle take.
+/// Returns the bytes of the keys of an obstacle.
 inline constexpr std::size_t keys_size(std::size_t keys) {
     return sizeof(std::uint64_t) + 8 * sizeof(double) * keys;
 }
 
-/// The payload between a head (mark, version, byte order, size, fingerprint) and a hash of all before it.
+/// Returns the payload between a head (mark, version, byte order, size, fingerprint) and a hash of all before
+/// it.
 std::string sealed_state(std::string_view payload, std::string_view fingerprint);
 
-/// Bytes that sealed_state adds.
+/// Returns the bytes that sealed_state() adds.
 std::size_t seal_size();
 
-/// The payload of sealed bytes. Throws SimulationError of a foreign state where they were not made by
-/// sealed_state with this fingerprint and this many bytes of payload at least, or were changed since.
+/// Returns the payload of sealed bytes. Throws SimulationError of a foreign state where they were not made by
+/// sealed_state() with this fingerprint and at least this many bytes of payload, or were changed since.
 std::string_view opened_state(std::string_view bytes, std::string_view fingerprint,
                               std::size_t least_payload);
 

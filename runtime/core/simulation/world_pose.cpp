@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/collision/obstacle_contact.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
+#include "samara/core/simulation/simulation.hpp"
 #include "samara/core/surface/surface_check.hpp"
 
 namespace samara {
@@ -146,6 +148,20 @@ void require_outside_obstacles(const TouchingBody& body, const std::string& name
     throw Error(fmt::format("{} starts inside obstacle '{}', at {}; start it elsewhere, or move the obstacle",
                             copy_in_words(name, copy, copies), overlap->obstacle,
                             samara::place(overlap->position)));
+}
+
+Surroundings surroundings_of(const SimulationSettings& settings) {
+    const Wind wind = settings.wind.seeded(settings.seed);
+    // A mean wind that is the same everywhere is a current, to the last bit.
+    const Vector3d uniform = wind.profile ? Vector3d::Zero() : wind.velocity;
+    return {
+        .gravity = settings.gravity,
+        .current = settings.fluid.current + uniform,
+        .gust = settings.fluid.gust,
+        .ground = settings.ground,
+        .obstacles =
+            settings.obstacles.empty() ? nullptr : std::make_shared<const ObstacleSet>(settings.obstacles),
+        .wind = wind.is_field() ? std::make_shared<const WindField>(wind, settings.fluid.current) : nullptr};
 }
 
 }  // namespace samara

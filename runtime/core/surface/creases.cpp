@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
 namespace {
 
-/// The outward direction at the middle of a side.
+/// Returns the outward direction at the middle of a side.
 Vector3d normal_at_side(const Surface& surface, const EdgeUse& use, bool flat) {
     const auto triangle = as_index(use.triangle);
     if (flat) return area_vector(surface, triangle);
@@ -20,33 +20,33 @@ Vector3d normal_at_side(const Surface& surface, const EdgeUse& use, bool flat) {
     return normal_of_triangle(surface, triangle, u, v);
 }
 
-/// By how much the surface, or that of its flat corner triangles, turns (radians) at each side of each
-/// triangle; pi where it ends.
-std::vector<std::array<double, 3>> turns_of(const Surface& surface, bool flat) {
-    std::vector<std::array<double, 3>> turns(surface.triangle_count(),
-                                             {std::numbers::pi, std::numbers::pi, std::numbers::pi});
+/// Returns the angle (rad) by which the normal of the surface, or of its flat corner triangles, changes at
+/// each side of each triangle; pi where the surface ends.
+std::vector<std::array<double, 3>> angles_of(const Surface& surface, bool flat) {
+    std::vector<std::array<double, 3>> angles(surface.triangle_count(),
+                                              {std::numbers::pi, std::numbers::pi, std::numbers::pi});
     const std::vector<EdgeUse> uses = edge_uses(surface);
     for (const auto& edge : edges_of(uses)) {
         if (edge.size() != 2) continue;
         const Vector3d one = normal_at_side(surface, edge[0], flat);
         const Vector3d other = normal_at_side(surface, edge[1], flat);
-        const double turn = std::atan2(one.cross(other).norm(), one.dot(other));
+        const double angle = std::atan2(one.cross(other).norm(), one.dot(other));
         for (const EdgeUse& use : edge) {
-            turns[as_index(use.triangle)][as_index(use.side)] = turn;
+            angles[as_index(use.triangle)][as_index(use.side)] = angle;
         }
     }
-    return turns;
+    return angles;
 }
 
-/// For each vertex the most that the surface turns at an edge around it, sharp creases aside.
-std::vector<double> most_turns(const Surface& surface, const std::vector<std::array<double, 3>>& turns) {
+/// Returns for each vertex the largest such angle (rad) at an edge around it, sharp creases aside.
+std::vector<double> largest_angles(const Surface& surface, const std::vector<std::array<double, 3>>& angles) {
     std::vector<double> most(surface.vertices.size(), 0.0);
-    for (std::size_t t = 0; t < turns.size(); ++t) {
+    for (std::size_t t = 0; t < angles.size(); ++t) {
         for (std::size_t side = 0; side < 3; ++side) {
-            if (turns[t][side] > sharp_angle) continue;
+            if (angles[t][side] > sharp_angle) continue;
             for (const std::size_t end : {side, (side + 1) % 3}) {
                 double& value = most[as_index(surface.corners[t][end])];
-                value = std::max(value, turns[t][side]);
+                value = std::max(value, angles[t][side]);
             }
         }
     }
@@ -56,11 +56,11 @@ std::vector<double> most_turns(const Surface& surface, const std::vector<std::ar
 }  // namespace
 
 Creases find_creases(const Surface& surface) {
-    const std::vector<std::array<double, 3>> flat_turns = turns_of(surface, true);
-    const std::vector<std::array<double, 3>> turns =
-        surface.order() == 1 ? flat_turns : turns_of(surface, false);
-    const std::vector<double> most = most_turns(surface, flat_turns);
-    const auto apex_turn = [&](std::size_t triangle, std::size_t side) {
+    const std::vector<std::array<double, 3>> flat_angles = angles_of(surface, true);
+    const std::vector<std::array<double, 3>> angles =
+        surface.order() == 1 ? flat_angles : angles_of(surface, false);
+    const std::vector<double> most = largest_angles(surface, flat_angles);
+    const auto apex_angle = [&](std::size_t triangle, std::size_t side) {
         return most[as_index(surface.corners[triangle][(side + 2) % 3])];
     };
     Creases creases(surface.triangle_count(), {true, true, true});
@@ -69,13 +69,13 @@ Creases find_creases(const Surface& surface) {
         if (edge.size() != 2) continue;
         const auto triangle = as_index(edge[0].triangle);
         const auto side = as_index(edge[0].side);
-        const double turn = turns[triangle][side];
-        const double around = std::max(apex_turn(triangle, side),
-                                       apex_turn(as_index(edge[1].triangle), as_index(edge[1].side)));
-        // Of curved triangles the turns vary from edge to edge; of flat ones only at folds.
-        const bool is_fold = std::min(turn, flat_turns[triangle][side]) > shallow_crease_angle &&
-                             flat_turns[triangle][side] > shallow_crease_ratio * around;
-        const bool is_crease = turn > sharp_angle || is_fold;
+        const double angle = angles[triangle][side];
+        const double around = std::max(apex_angle(triangle, side),
+                                       apex_angle(as_index(edge[1].triangle), as_index(edge[1].side)));
+        // Between curved triangles the angles vary from edge to edge; between flat ones only at folds.
+        const bool is_fold = std::min(angle, flat_angles[triangle][side]) > shallow_crease_angle &&
+                             flat_angles[triangle][side] > shallow_crease_ratio * around;
+        const bool is_crease = angle > sharp_angle || is_fold;
         for (const EdgeUse& use : edge) {
             creases[as_index(use.triangle)][as_index(use.side)] = is_crease;
         }

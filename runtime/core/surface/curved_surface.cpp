@@ -169,7 +169,7 @@ std::vector<std::int32_t> overturned_triangles(const Surface& surface) {
 }
 
 void straighten_overturned(Surface& surface) {
-    // A straightened edge may overturn the triangle on its other side: three rounds reach what matters.
+    // A straightened edge may overturn the triangle on its other side: three rounds suffice.
     for (int round = 0; round < 3; ++round) {
         for (std::size_t t = 0; t < surface.edge_nodes.size(); ++t) {
             if (!is_overturned(surface, t)) continue;

@@ -4,37 +4,38 @@
 
 namespace samara {
 
-/// The point (m) of the triangle with corner coordinates (1 - u - v, u, v): on the flat triangle for order 1,
-/// on the quadratic one for order 2.
+/// Returns the point (m) of the triangle with corner coordinates (1 - u - v, u, v): on the flat triangle for
+/// order 1, on the quadratic one for order 2.
 Vector3d point_of_triangle(const Surface& surface, std::size_t triangle, double u, double v);
 
-/// The outward normal (m^2, not unit) of the triangle at corner coordinates (1 - u - v, u, v): the cross
-/// product of the derivatives of its point by u and v.
+/// Returns the outward normal (m^2, not of unit length) of the triangle at corner coordinates (1 - u - v, u,
+/// v): the cross product of the derivatives of its point by u and v.
 Vector3d normal_of_triangle(const Surface& surface, std::size_t triangle, double u, double v);
 
-/// The volume (m^3) under the triangles, the curved ones as four flat ones each; negative where they are
-/// inside out.
+/// Returns the volume (m^3) that the triangles enclose, each curved one as four flat ones; negative where
+/// they are inside out.
 double enclosed_volume(const Surface& surface);
 
-/// Flat triangles that follow the curved ones: each is cut into subdivisions^2, with three vertices of its
-/// own. A surface of order 1 is returned as it is.
+/// Returns flat triangles that follow the curved ones: each is cut into subdivisions^2, with three vertices
+/// of its own. A surface of order 1 is returned as it is.
 Surface flattened(const Surface& surface, int subdivisions);
 
-/// The surface as flat triangles on its own vertices and edge nodes: each triangle of order 2 becomes four.
+/// Returns the surface as flat triangles on its own vertices and edge nodes: each triangle of order 2 becomes
+/// four.
 Surface flattened_surface(const Surface& surface);
 
-/// The surface of order 1 as one of order 2, with nodes halfway along its straight edges. Of a surface of
-/// order 2, its corners.
+/// Returns the surface's corners as a surface of order 2, with nodes halfway along straight edges.
 Surface with_straight_edge_nodes(const Surface& surface);
 
-/// The flat surface of the corners alone, unused vertices left out.
+/// Returns the flat surface of the corners alone, unused vertices left out.
 Surface without_edge_nodes(const Surface& surface);
 
-/// Whether all nodes of a surface of order 2 lie halfway along straight edges, within 1e-6 of their length.
+/// Returns whether all nodes of a surface of order 2 lie halfway along straight edges, within 1e-6 of their
+/// length.
 bool has_straight_edges(const Surface& surface);
 
-/// The triangles whose curved face turns over somewhere (its normal leans more than a right angle from that
-/// of its corners): such a surface of order 2 is too coarse for its curvature.
+/// Returns the triangles whose curved face overturns somewhere (its normal is more than a right angle from
+/// that of its corners): the surface of order 2 is too coarse for its curvature there.
 std::vector<std::int32_t> overturned_triangles(const Surface& surface);
 
 /// Makes the edges of overturned triangles straight.

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "samara/core/base/as_index.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 
 namespace samara {
@@ -39,8 +39,8 @@ void erase_faces(Surface& surface, const std::vector<bool>& gone) {
     if (curved) surface.edge_nodes.resize(kept);
 }
 
-// Two faces of the same corners, turned against each other, each of whose edges has other faces or none left
-// once both are gone.
+// Returns the faces that are folded: two of the same corners, facing each other, whose edges have other
+// faces, or none, once both are gone.
 std::vector<bool> folded_faces(const Surface& surface) {
     const std::vector<EdgeUse> uses = edge_uses(surface);
     std::vector<bool> at_odd_edge(surface.triangle_count(), false);
@@ -48,21 +48,21 @@ std::vector<bool> folded_faces(const Surface& surface) {
         if (edge.size() % 2 == 0) continue;
         for (const EdgeUse& use : edge) at_odd_edge[as_index(use.triangle)] = true;
     }
-    // The smallest corner first, the order kept: the last two tell the sense.
+    // Each face's corners rotated so that the smallest comes first: the last two tell the orientation.
     std::vector<std::tuple<std::int32_t, std::int32_t, std::int32_t, bool, std::size_t>> faces;
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
         Triangle corners = surface.corners[t];
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-        const bool turned = corners[1] > corners[2];
+        const bool reversed = corners[1] > corners[2];
         faces.emplace_back(corners[0], std::min(corners[1], corners[2]), std::max(corners[1], corners[2]),
-                           turned, t);
+                           reversed, t);
     }
     std::sort(faces.begin(), faces.end());
     std::vector<bool> folded(surface.triangle_count(), false);
     for (std::size_t i = 1; i < faces.size(); ++i) {
-        const auto& [a, b, c, turned, t] = faces[i];
-        const auto& [before_a, before_b, before_c, before_turned, before] = faces[i - 1];
-        const bool same = a == before_a && b == before_b && c == before_c && turned != before_turned;
+        const auto& [a, b, c, reversed, t] = faces[i];
+        const auto& [before_a, before_b, before_c, before_reversed, before] = faces[i - 1];
+        const bool same = a == before_a && b == before_b && c == before_c && reversed != before_reversed;
         if (!same || at_odd_edge[t] || at_odd_edge[before] || folded[before]) continue;
         folded[t] = true;
         folded[before] = true;
@@ -88,7 +88,7 @@ void drop_unused_vertices(Surface& surface) {
     surface.vertices = std::move(kept);
 }
 
-// Zero where each edge has an even number of faces, and hardly ever otherwise.
+// Returns zero where each edge has an even number of faces, and hardly ever otherwise.
 std::uint64_t mark_of_odd_edges(const Surface& surface) {
     std::uint64_t mark = 0;
     for (const Triangle& corners : surface.corners) {
@@ -122,7 +122,7 @@ class OpenCorners {
         corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
     }
 
-    // Those on the side between two corners, the nearest to the first one first.
+    // Returns the open corners on the side between two corners, the nearest to the first one first.
     [[nodiscard]] std::vector<std::int32_t> between(std::int32_t from, std::int32_t to,
                                                     double tolerance) const {
         const Vector3d& start = vertex(surface_, from);
@@ -161,9 +161,9 @@ std::vector<EdgeUse> open_sides(const Surface& surface) {
     return open;
 }
 
-// Cuts each face with such a side once; false where there is none.
+// Cuts each face with an open corner on its side once; false where there is none.
 bool split_each_once(Surface& surface, double tolerance) {
-    constexpr std::size_t most_open_sides = 20'000;  // each is held against all: that many are no few slips
+    constexpr std::size_t most_open_sides = 20'000;  // each is compared with all: so many are no small errors
     const std::vector<EdgeUse> open = open_sides(surface);
     if (open.size() > most_open_sides) return false;
     const OpenCorners corners(surface, open);
@@ -200,7 +200,7 @@ class FaceFlipper {
     }
 
     void flip_all() {
-        // Each flip leaves fewer of them, or thicker ones; rounding may not let it end.
+        // Each flip leaves fewer flat faces, or thicker ones; rounding may keep it from ending.
         std::size_t left = 16 * waiting_.size();
         while (!waiting_.empty() && left-- > 0) {
             const std::size_t t = waiting_.front();
@@ -223,7 +223,7 @@ class FaceFlipper {
         return (vertex(surface_, face[1]) - a).cross(vertex(surface_, face[2]) - a);
     }
 
-    // Not small ones that are only as low as they are long.
+    // Excludes small faces that are as low as they are long.
     [[nodiscard]] bool is_flat(const Triangle& face) const {
         constexpr double flat = 1e-3;
         const double low = height(face);
@@ -266,7 +266,7 @@ class FaceFlipper {
         const std::int32_t tip = face[(side + 2) % 3];
         const std::vector<std::size_t>& both = faces_at_.at(key(from, to));
         if (both.size() != 2) return;
-        // One at the rim of a sheet bridges nothing, and may be deleted.
+        // A face at the rim of a sheet bridges nothing, and may be deleted.
         if (faces_at_.at(key(to, tip)).size() < 2 || faces_at_.at(key(tip, from)).size() < 2) return;
         const std::size_t u = both[0] == t ? both[1] : both[0];
         const Triangle other = surface_.corners[u];
@@ -285,7 +285,7 @@ class FaceFlipper {
         surface_.corners[u] = second;
         enter(t);
         enter(u);
-        // What waited for a neighbour with area has one now.
+        // Faces that waited for a neighbour with area have one now.
         for (const Triangle& changed : {first, second}) {
             for (std::size_t i = 0; i < 3; ++i) {
                 for (const std::size_t near : faces_at_.at(key(changed[i], changed[(i + 1) % 3]))) {
@@ -301,8 +301,7 @@ class FaceFlipper {
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> faces_at_;
 };
 
-// Leaves out triangles with two equal corners, pairs of triangles that lie on each other back to back and
-// close nothing, and vertices that no triangle uses.
+// Leaves out triangles with two equal corners, folded_faces(), and vertices that no triangle uses.
 void drop_collapsed_faces(Surface& surface) {
     if (std::none_of(surface.corners.begin(), surface.corners.end(), is_collapsed)) return;
     std::vector<bool> gone;
@@ -312,7 +311,7 @@ void drop_collapsed_faces(Surface& surface) {
     drop_unused_vertices(surface);
 }
 
-// Takes no time to speak of where every side has a neighbour.
+// Ends at once where every side has a neighbour.
 void split_at_corners_on_sides(Surface& surface, double tolerance) {
     if (mark_of_odd_edges(surface) == 0) return;
     constexpr int most_rounds = 8;  // a face has three sides, and their parts may have corners on them again

@@ -6,14 +6,15 @@
 
 namespace samara {
 
-/// The text without the mark of UTF-8 that some programs put before it. Throws Error, "LABEL: ...", where it
-/// begins as UTF-16 or UTF-32.
+/// Returns the text without the byte order mark of UTF-8 that some programs write. Throws Error, "LABEL:
+/// ...", where it begins as UTF-16 or UTF-32.
 std::string_view without_byte_order_mark(std::string_view text, const std::string& label);
 
-/// A number; false where the word is none. Too small a number is zero; "nan" and "inf" are numbers here.
+/// Reads a number; false where the word is none. Too small a number is zero; "nan" and "inf" are numbers
+/// here.
 bool read_number(std::string_view word, double& number);
 
-/// The word in small letters.
+/// Returns the word in lower case.
 std::string in_small_letters(std::string_view word);
 
 /// The words of one line, from the left.
@@ -21,7 +22,7 @@ class Words {
   public:
     explicit Words(std::string_view line) : rest_(line) {}
 
-    /// Empty after the last one.
+    /// Takes the next word; empty after the last one.
     std::string_view next() {
         rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
         const std::string_view word = rest_.substr(0, rest_.find_first_of(blanks));
@@ -29,7 +30,7 @@ class Words {
         return word;
     }
 
-    /// What was not taken yet.
+    /// Returns the rest of the line that was not taken yet.
     [[nodiscard]] std::string_view rest() const { return rest_; }
 
     static constexpr std::string_view blanks = " \t\v\f";
@@ -38,13 +39,12 @@ class Words {
     std::string_view rest_;
 };
 
-/// Calls `visit` with each line and its number, from 1. Lines end as on Unix, on Windows, or as on Macs of
-/// old. With `continued`, lines that end in a backslash go on in the next: they are one, with the first
-/// number.
+/// Calls `visit` with each line and its number, from 1. Lines end as on Unix, on Windows, or as on old Macs.
+/// With `continued`, a line that ends in a backslash and the next are one, with the first number.
 template <typename Visit>
 void visit_lines(std::string_view text, bool continued, const Visit& visit) {
     std::string joined;
-    int first = 0;  // of the joined lines; 0: none
+    int first = 0;  // the number of the first of the joined lines; 0: none
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
         std::string_view line = text.substr(0, end);

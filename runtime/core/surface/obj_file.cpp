@@ -18,15 +18,14 @@
 #include "samara/core/surface/display_image.hpp"
 #include "samara/core/surface/mesh_text.hpp"
 #include "samara/core/surface/polygon_triangles.hpp"
-#include "samara/core/surface/unit_normal.hpp"
 
 namespace samara {
 namespace {
 
 constexpr std::size_t most_materials = 4096;
-constexpr std::size_t most_material_bytes = 64U << 20U;  // of a file of them
+constexpr std::size_t most_material_bytes = 64U << 20U;  // the largest file of materials (bytes)
 
-/// A number from 0 to 1, drawn there where it lies outside; false where the word is none.
+/// Reads a number and clamps it to 0 to 1; false where the word is none.
 bool read_share(std::string_view word, double& number) {
     if (!read_number(word, number) || !std::isfinite(number)) return false;
     number = std::clamp(number, 0.0, 1.0);
@@ -47,7 +46,7 @@ class ObjReader {
         return surface_;
     }
 
-    /// What was read besides the surface.
+    /// Returns the display mesh that was read.
     DisplayMesh display(const std::filesystem::path& folder) {
         for (const std::string& library : libraries_) read_materials(place_beneath(folder, library), folder);
         if (!all_have_normals_) display_.normals.clear();
@@ -57,7 +56,7 @@ class ObjReader {
 
   private:
     void read_line(std::string_view line) {
-        // Names may hold the sign of a comment, numbers cannot.
+        // Names may hold a '#', numbers cannot.
         Words words(line);
         const std::string keyword = in_small_letters(words.next());
         const std::string_view rest = words.rest();
@@ -99,8 +98,8 @@ class ObjReader {
         return known->second;
     }
 
-    /// Where a file that this one names is: where it says, unless that is outside of the folder, else beside
-    /// it; empty where there is none.
+    /// Returns the path of a file that this one names: the named path, unless that is outside of the folder,
+    /// else beside this file; empty where there is none.
     static std::filesystem::path place_beneath(const std::filesystem::path& folder,
                                                const std::filesystem::path& name) {
         const auto is_there = [](const std::filesystem::path& file) {
@@ -112,15 +111,15 @@ class ObjReader {
         return is_there(folder / name.filename()) ? folder / name.filename() : std::filesystem::path{};
     }
 
-    /// A link could make any file that its reader may read part of what is shown.
+    /// A link could otherwise show any file that the user may read.
     void require_beneath(const InputFile& input, const std::filesystem::path& folder) const {
         if (input.is_beneath(folder)) return;
         throw Error(fmt::format("{}: {} is a link that leads out of the folder; put the file itself there",
                                 label_, input.path().string()));
     }
 
-    /// The image that a line of a file of materials names behind its options, at place_beneath(); -1 where
-    /// there is none to carry.
+    /// Returns the number of the image that a line of a file of materials names behind its options, at
+    /// place_beneath(); -1 where there is none to carry.
     std::int32_t image_named(std::string_view rest, const std::filesystem::path& folder) {
         rest.remove_prefix(std::min(rest.find_first_not_of(Words::blanks), rest.size()));
         rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(Words::blanks) + 1, rest.size()));
@@ -142,7 +141,7 @@ class ObjReader {
         return known->second;
     }
 
-    /// Of a file of materials, where it can be read.
+    /// Reads the materials of a file, where it can be read.
     void read_materials(const std::filesystem::path& file, const std::filesystem::path& folder) {
         if (file.empty()) return;
         const InputFile input(file);
@@ -170,7 +169,7 @@ class ObjReader {
         });
     }
 
-    /// The vertex of the look that a face's word names: the same words are one.
+    /// Returns the vertex of the display mesh that a face's word names; equal words share one.
     std::int32_t display_vertex(const std::string& word, std::int32_t vertex) {
         const auto [known, is_new] = known_.try_emplace(word, display_.positions.size());
         if (!is_new) return static_cast<std::int32_t>(known->second);
@@ -231,7 +230,7 @@ class ObjReader {
         if (with_display_) add_to_display(triangles);
     }
 
-    /// A face's word with numbers that count from 1: those that count back mean others on another line.
+    /// Returns a face's word with numbers that count from 1: those that count back differ from line to line.
     [[nodiscard]] std::string absolute(std::string_view word) const {
         if (word.find('-') == std::string_view::npos) return std::string(word);
         const std::size_t counts[] = {surface_.vertices.size(), texture_.size(), normals_.size()};
@@ -248,8 +247,8 @@ class ObjReader {
         return result;
     }
 
-    // Of VERTEX, VERTEX/TEXTURE, VERTEX//NORMAL or VERTEX/TEXTURE/NORMAL the first, of `all`; counted from 1,
-    // or back from the last.
+    // Returns the first index of VERTEX, VERTEX/TEXTURE, VERTEX//NORMAL or VERTEX/TEXTURE/NORMAL, less than
+    // `all`; the file counts from 1, or back from the last.
     [[nodiscard]] std::size_t index_of(std::string_view word, std::size_t all, const char* what) const {
         const std::string_view digits = word.substr(0, word.find('/'));
         const auto count = static_cast<std::int64_t>(all);
@@ -269,8 +268,8 @@ class ObjReader {
     std::string label_;
     int line_ = 0;
     Surface surface_;
-    std::vector<std::int32_t> corners_;  // of a face
-    std::vector<std::string> words_;     // the same
+    std::vector<std::int32_t> corners_;  // of the present face
+    std::vector<std::string> words_;     // likewise
 
     bool with_display_;
     DisplayMesh display_;
@@ -280,8 +279,8 @@ class ObjReader {
     std::vector<Vector3d> normals_;
     std::vector<std::string> libraries_;
     std::set<std::string> known_libraries_;
-    std::unordered_map<std::string, std::int32_t> slots_;   // by name: the materials of the look
-    std::unordered_map<std::string, std::int32_t> images_;  // by file: their numbers in the look
+    std::unordered_map<std::string, std::int32_t> slots_;   // by name: the materials of the display mesh
+    std::unordered_map<std::string, std::int32_t> images_;  // by file: their numbers in the display mesh
     std::unordered_map<std::string, std::size_t> known_;
 };
 

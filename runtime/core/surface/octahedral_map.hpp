@@ -14,15 +14,15 @@ namespace samara {
 /// row) coordinates; at the pole z = -1 one of the four corners.
 Eigen::Vector2d octahedral_coordinates(const Vector3d& direction) noexcept;
 
-/// The unit vector at a point of the square: the inverse of octahedral_coordinates.
+/// Returns the unit vector at a point of the square: the inverse of octahedral_coordinates().
 Vector3d octahedral_direction(const Eigen::Vector2d& coordinates) noexcept;
 
-/// The unit vector at node (row, column) of the map whose octahedron edges are cut into `subdivisions`: the
-/// square has 2 subdivisions + 1 nodes a side. Nodes on opposite halves of the square's edge are the same
-/// direction, exactly.
+/// Returns the unit vector at node (row, column) of the map whose octahedron edges are cut into
+/// `subdivisions`: the square has 2 subdivisions + 1 nodes a side. Nodes on opposite halves of the square's
+/// edge are the same direction, exactly.
 Vector3d octahedral_node(int subdivisions, int row, int column) noexcept;
 
-/// All of them, row by row, as LoadTables holds them; those on the square's edge more than once.
+/// Returns all nodes, row by row, as LoadTables holds them; those on the square's edge more than once.
 std::vector<Vector3d> octahedral_nodes(int subdivisions);
 
 /// The cell of the map that holds a direction: the node of its least row and column, and the place in it from

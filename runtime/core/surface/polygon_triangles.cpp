@@ -11,8 +11,8 @@ namespace {
 using Triangle = std::array<std::int32_t, 3>;
 using Point = Eigen::Vector2d;
 
-// Twice the area of the triangle, positive where it turns left.
-double turn(const Point& a, const Point& b, const Point& c) {
+// Returns twice the area of the triangle, positive where it runs anticlockwise.
+double doubled_area(const Point& a, const Point& b, const Point& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
@@ -43,7 +43,7 @@ class EarCutter {
                 waits[corner] = true;
             };
             for (const std::size_t corner : round) {
-                // Cutting an ear changes its neighbours alone: all others that are no ears stay none.
+                // Cutting an ear changes its neighbours alone: all other corners stay what they are.
                 if (is_gone[corner] || waits[corner] || remaining_ == 3 || !is_ear(corner)) continue;
                 is_gone[corner] = true;
                 remove(corner);
@@ -62,7 +62,7 @@ class EarCutter {
     }
 
   private:
-    // Onto the plane of two axes that the polygon leans on most.
+    // Projects the polygon onto the plane of the two axes in which its area is largest.
     void project(const std::vector<Vector3d>& vertices) {
         const auto vertex = [&](std::size_t i) -> const Vector3d& {
             return vertices[static_cast<std::size_t>(corners_[i])];
@@ -80,7 +80,7 @@ class EarCutter {
     }
 
     [[nodiscard]] bool is_convex(std::size_t corner) const {
-        return turn(points_[previous_[corner]], points_[corner], points_[next_[corner]]) > 0.0;
+        return doubled_area(points_[previous_[corner]], points_[corner], points_[next_[corner]]) > 0.0;
     }
 
     [[nodiscard]] bool is_ear(std::size_t corner) const {
@@ -90,8 +90,8 @@ class EarCutter {
         const Point& c = points_[next_[corner]];
         return std::none_of(reflex_.begin(), reflex_.end(), [&](std::size_t other) {
             const Point& p = points_[other];
-            return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
-                   turn(c, a, p) >= 0.0;
+            return p != a && p != b && p != c && doubled_area(a, b, p) >= 0.0 &&
+                   doubled_area(b, c, p) >= 0.0 && doubled_area(c, a, p) >= 0.0;
         });
     }
 

@@ -93,7 +93,7 @@ class TextReader {
     }
 
   private:
-    // What the name of the solid says is not meant; all else may stand on one line.
+    // The name of the solid is ignored; all else may stand on one line.
     void read_line(std::string_view line) {
         Words words(line);
         std::string keyword = in_small_letters(words.next());

@@ -18,31 +18,31 @@ struct Surface {
     std::vector<std::array<std::int32_t, 3>> corners;     ///< of each triangle, anticlockwise from outside
     std::vector<std::array<std::int32_t, 3>> edge_nodes;  ///< middles of edges, where order is 2
 
-    /// 1 where triangles are flat, 2 where they are curved.
+    /// Returns 1 where triangles are flat, 2 where they are curved.
     [[nodiscard]] int order() const { return edge_nodes.empty() ? 1 : 2; }
-    /// How many triangles there are.
+    /// Returns the number of triangles.
     [[nodiscard]] std::size_t triangle_count() const { return corners.size(); }
 };
 
-/// Half the cross product of two edges: its length is the flat triangle's area (m^2), its direction the
-/// outward normal.
+/// Returns half the cross product of two edges: its length is the flat triangle's area (m^2), its direction
+/// the outward normal.
 Vector3d area_vector(const Surface& surface, std::size_t triangle);
 
-/// The centre of gravity of the flat triangle's corners (m).
+/// Returns the centroid of the flat triangle's corners (m).
 Vector3d triangle_centroid(const Surface& surface, std::size_t triangle);
 
-/// The length (m) of the flat triangle's longest edge.
+/// Returns the length (m) of the flat triangle's longest edge.
 double longest_edge(const Surface& surface, std::size_t triangle);
 
-/// The sum of the flat triangles' areas (m^2).
+/// Returns the sum of the flat triangles' areas (m^2).
 double surface_area(const Surface& surface);
 
-/// The area (m^2) of the projected area of a convex body along the unit vector `direction`; for other bodies
-/// an upper bound, the sum of the faces turned towards it.
+/// Returns the projected area (m^2) of a convex body along the unit vector `direction`; for other bodies an
+/// upper bound, the sum over the faces towards it.
 double projected_area(const Surface& surface, const Vector3d& direction);
 
-/// L = sqrt(S / pi) (m): the diameter of the sphere with the same surface area S. The length scale of all
-/// tables.
+/// Returns L = sqrt(S / pi) (m), the diameter of the sphere with the surface area S (m^2): the length scale
+/// of all tables.
 double reference_length(double surface_area);
 
 }  // namespace samara

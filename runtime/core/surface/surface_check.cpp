@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/as_index.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 #include "samara/core/surface/welded_surface.hpp"
@@ -15,8 +15,7 @@
 namespace samara {
 namespace {
 
-// A face whose height is below this part of its longest side has no area to speak of: no normal can be relied
-// on.
+// The height, relative to its longest side, below which a face has no area to rely on: its normal is unknown.
 constexpr double flattest_face = 1e-7;
 
 const Vector3d& vertex(const Surface& surface, std::int32_t index) {
@@ -53,8 +52,8 @@ void require_each_face_once(const Surface& surface) {
     }
 }
 
-// A face that belongs to no closed surface: on its own, or hanging on by one edge of a surface that is
-// complete.
+// Throws where a face belongs to no closed surface: one on its own, or one that hangs on an edge of a
+// complete surface.
 void require_no_stray_face(const Surface& surface, const std::vector<std::span<const EdgeUse>>& edges) {
     std::vector<int> open_sides(surface.triangle_count(), 0);
     std::vector<int> crowded_sides(surface.triangle_count(), 0);
@@ -101,7 +100,7 @@ void require_two_faces_at_each_edge(const Surface& surface,
     }
 }
 
-// At a sound vertex one walk from face to face over the edges meets all of its faces.
+// At a sound vertex one walk from face to face over the edges visits all of its faces.
 void require_one_fan_at_each_vertex(const Surface& surface) {
     const auto others = neighbours(surface);
     std::vector<std::int32_t> faces_at(surface.vertices.size(), 0);
@@ -156,29 +155,30 @@ void require_curved_faces_to_stay_flat_enough(const Surface& surface) {
     const std::vector<std::int32_t> overturned = overturned_triangles(surface);
     if (overturned.empty()) return;
     const std::int32_t first = overturned.front();
-    throw Error(fmt::format("the curved face {} at {} turns over; use more triangles, or order 1", first + 1,
+    throw Error(fmt::format("the curved face {} at {} overturns; use more triangles, or order 1", first + 1,
                             place(triangle_centroid(surface, as_index(first)))));
 }
 
 void require_faces_to_agree(const Surface& surface, const std::vector<Component>& pieces) {
-    std::vector<std::int32_t> turned;
+    std::vector<std::int32_t> reversed;
     for (const Component& piece : pieces) {
         if (2 * piece.against.size() <= piece.triangles.size()) {
-            turned.insert(turned.end(), piece.against.begin(), piece.against.end());
+            reversed.insert(reversed.end(), piece.against.begin(), piece.against.end());
             continue;
         }
         std::vector<std::int32_t> all = piece.triangles;
         std::vector<std::int32_t> others = piece.against;
         std::sort(all.begin(), all.end());
         std::sort(others.begin(), others.end());
-        std::set_difference(all.begin(), all.end(), others.begin(), others.end(), std::back_inserter(turned));
+        std::set_difference(all.begin(), all.end(), others.begin(), others.end(),
+                            std::back_inserter(reversed));
     }
-    if (turned.empty()) return;
-    const std::int32_t first = *std::min_element(turned.begin(), turned.end());
+    if (reversed.empty()) return;
+    const std::int32_t first = *std::min_element(reversed.begin(), reversed.end());
     throw Error(
         fmt::format("{} of {} faces {} turned against the others, the first is face {} at {}; make the "
                     "normals consistent",
-                    turned.size(), surface.triangle_count(), turned.size() == 1 ? "is" : "are", first + 1,
+                    reversed.size(), surface.triangle_count(), reversed.size() == 1 ? "is" : "are", first + 1,
                     place(triangle_centroid(surface, as_index(first)))));
 }
 

@@ -28,8 +28,8 @@ bool is_forward(const Surface& surface, std::int32_t triangle, std::int32_t othe
     return false;
 }
 
-// The solid angle of the component over 4 pi, seen from the point, whatever way the component is turned: 1
-// inside, 0 outside. van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
+// Returns whether the component encloses the point, by its solid angle there over 4 pi, whatever its
+// orientation: 1 inside, 0 outside. van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
 bool encloses(const Surface& surface, const Component& component, const Vector3d& point) {
     double angle = 0.0;
     for (const std::int32_t t : component.triangles) {
@@ -100,7 +100,7 @@ std::vector<std::array<std::int32_t, 3>> neighbours(const Surface& surface) {
     return others;
 }
 
-void turn_round(Surface& surface, std::size_t triangle) {
+void reverse_triangle(Surface& surface, std::size_t triangle) {
     std::swap(surface.corners[triangle][1], surface.corners[triangle][2]);
     if (surface.order() == 2) std::swap(surface.edge_nodes[triangle][0], surface.edge_nodes[triangle][2]);
 }
@@ -163,13 +163,14 @@ std::vector<int> nesting_depths(const Surface& surface, const std::vector<Compon
 void orient_outwards(Surface& surface) {
     const std::vector<Component> pieces = components(surface);
     for (const Component& piece : pieces) {
-        for (const std::int32_t t : piece.against) turn_round(surface, static_cast<std::size_t>(t));
+        for (const std::int32_t t : piece.against) reverse_triangle(surface, static_cast<std::size_t>(t));
     }
     const std::vector<int> depths = nesting_depths(surface, pieces);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const bool is_cavity = depths[i] % 2 == 1;
         if ((enclosed_volume(surface, pieces[i]) < 0.0) == is_cavity) continue;
-        for (const std::int32_t t : pieces[i].triangles) turn_round(surface, static_cast<std::size_t>(t));
+        for (const std::int32_t t : pieces[i].triangles)
+            reverse_triangle(surface, static_cast<std::size_t>(t));
     }
 }
 

@@ -18,35 +18,38 @@ struct EdgeUse {
     bool forward = true;    ///< whether the triangle runs along the edge from low to high
 };
 
-/// All sides of all triangles, those of the same edge one after the other.
+/// Returns all sides of all triangles, those of the same edge one after the other.
 std::vector<EdgeUse> edge_uses(const Surface& surface);
 
 /// Cuts the sorted uses into one run for each edge.
 std::vector<std::span<const EdgeUse>> edges_of(const std::vector<EdgeUse>& uses);
 
-/// For each triangle and side the triangle on the other side of the edge; -1 where the edge is not used by
-/// exactly two.
+/// Returns for each triangle and side the triangle on the other side of the edge; -1 where the edge is not
+/// used by exactly two.
 std::vector<std::array<std::int32_t, 3>> neighbours(const Surface& surface);
 
-/// Turns triangle t round: its corners and edge nodes run the other way.
-void turn_round(Surface& surface, std::size_t triangle);
+/// Reverses triangle t: its corners and edge nodes run in the other direction.
+void reverse_triangle(Surface& surface, std::size_t triangle);
 
-/// A piece of the surface that hangs together over edges.
+/// A piece of the surface that is connected over edges.
 struct Component {
-    std::vector<std::int32_t> triangles;  ///< the first is the one that `against` counts from
-    std::vector<std::int32_t> against;    ///< those turned the other way than the first
+    std::vector<std::int32_t> triangles;  ///< the first is the reference of `against`
+    std::vector<std::int32_t> against;    ///< those oriented opposite to the first
 };
 
-/// The pieces, in the order of their first triangle. Only edges used by exactly two triangles join.
+/// Returns the pieces, in the order of their first triangle. Only edges used by exactly two triangles
+/// connect.
 std::vector<Component> components(const Surface& surface);
 
-/// The volume (m^3) that a closed component encloses: negative where it is inside out. Flat triangles.
+/// Returns the volume (m^3) that a closed component encloses: negative where it is inside out. Flat
+/// triangles.
 double enclosed_volume(const Surface& surface, const Component& component);
 
-/// How many components each component lies within: 0 for outer ones, 1 for cavities. All must be closed.
+/// Returns for each component the number of components that it lies within: 0 for outer ones, 1 for cavities.
+/// All must be closed.
 std::vector<int> nesting_depths(const Surface& surface, const std::vector<Component>& pieces);
 
-/// Turns triangles round so that the closed surface looks outwards: away from the matter, which is where the
+/// Reverses triangles so that the closed surface faces outwards: away from the matter, which is where the
 /// depth of nesting is odd. For surfaces whose orientation carries no meaning, such as those of CAD geometry.
 void orient_outwards(Surface& surface);
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
 namespace {
@@ -21,7 +21,7 @@ struct Piece {
     double area = 0.0;
     Vector3d center = Vector3d::Zero();
     double spread = 0.0;                  ///< the largest second moment of area about the centre (m^4)
-    Vector3d widest = Vector3d::UnitX();  ///< along which it is that large
+    Vector3d widest = Vector3d::UnitX();  ///< the direction of that largest moment
 };
 
 Piece piece_of(std::vector<PatchFace> faces) {
@@ -35,7 +35,7 @@ Piece piece_of(std::vector<PatchFace> faces) {
     piece.center /= piece.area;
     Matrix3d spread = Matrix3d::Zero();
     for (const auto& [corners, triangle] : piece.faces) {
-        // The middles of the edges weigh a quadratic function exactly.
+        // The middles of the edges integrate a quadratic function exactly.
         for (std::size_t i = 0; i < 3; ++i) {
             const Vector3d arm = 0.5 * (corners[i] + corners[(i + 1) % 3]) - piece.center;
             spread += area_of(corners) / 3.0 * arm * arm.transpose();
@@ -47,8 +47,8 @@ Piece piece_of(std::vector<PatchFace> faces) {
     return piece;
 }
 
-/// The part of a triangle on one side of a plane, over which its corners have these heights. What lies in the
-/// plane is above it.
+/// Adds to `kept` the part of a triangle above, or below, a plane over which its corners have these heights.
+/// A part in the plane counts as above.
 void clip(const PatchFace& face, const std::array<double, 3>& heights, bool above,
           std::vector<PatchFace>& kept) {
     const Corners& corners = face.corners;
@@ -65,7 +65,7 @@ void clip(const PatchFace& face, const std::array<double, 3>& heights, bool abov
     }
 }
 
-/// The two halves of a piece, cut through its centre across its widest direction.
+/// Returns the two halves of a piece, cut through its centre across its widest direction.
 std::pair<Piece, Piece> halves_of(const Piece& piece) {
     std::vector<PatchFace> above;
     std::vector<PatchFace> below;

@@ -9,7 +9,7 @@
 
 namespace samara {
 
-/// How many patches a surface can be divided into.
+/// The most patches that a surface can be divided into.
 inline constexpr int most_surface_patches = 32;
 
 /// A triangle of a patch: one of the surface's, or a part of one.
@@ -18,18 +18,18 @@ struct PatchFace {
     std::size_t triangle = 0;  ///< of the surface
 };
 
-/// A part of a surface, for what acts on the parts one by one.
+/// A part of a surface on which loads act at its own velocity.
 struct SurfacePatch {
-    Vector3d place = Vector3d::Zero();  ///< of its centre of area, from that of the whole surface
-    double share = 1.0;                 ///< of the whole area
+    Vector3d place = Vector3d::Zero();  ///< m: its centre of area, from that of the whole surface
+    double share = 1.0;                 ///< its part of the whole area
     std::vector<PatchFace> faces;
 };
 
-/// Divides a surface into patches of no great extent: the piece with the widest spread is cut through its
-/// centre of area, across the direction in which it is widest, until there are so many. The shares add up to
-/// one and the places, weighed by them, to zero. A cut goes through triangles, so that the mesh does not
-/// matter; where a piece is as wide in several directions, which of them is cut first is chance.
-/// `count`: 1 to most_surface_patches.
+/// Divides a surface into compact patches: the piece with the widest spread is cut through its centre of
+/// area, across the direction in which it is widest, until there are so many. The shares add up to one and
+/// the places, weighed by them, to zero. A cut goes through triangles, so that the mesh does not matter;
+/// where a piece is as wide in several directions, which of them is cut first is chance. `count`: 1 to
+/// most_surface_patches.
 std::vector<SurfacePatch> surface_patches(const Surface& surface, int count);
 
 }  // namespace samara

@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "samara/core/base/as_index.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface_check.hpp"
 
 namespace samara {
 namespace {
 
-// No body is larger or smaller, whatever the unit of its file; within, the integrals of second moments, of
+// The bounds of a body's size, whatever the unit of its file. Within them the integrals of second moments, of
 // degree five in the size, stay far from overflow and underflow.
 constexpr double largest_coordinate = 1e12;
 constexpr double smallest_extent = 1e-12;
@@ -27,7 +27,7 @@ class VertexGrid {
   public:
     VertexGrid(const Vector3d& lowest, double tolerance) : lowest_(lowest), tolerance_(tolerance) {}
 
-    // The index of a kept vertex within the tolerance of the point, or a new one.
+    // Returns the index of a kept vertex within the tolerance of the point, or of a new one.
     std::int32_t index_of(const Vector3d& point, std::vector<Vector3d>& kept) {
         const Cell low = cell_of(point - Vector3d::Constant(tolerance_));
         const Cell high = cell_of(point + Vector3d::Constant(tolerance_));
@@ -51,7 +51,7 @@ class VertexGrid {
   private:
     using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
-    // Cells some times wider than the tolerance: most look-ups then meet a single cell.
+    // Cells some times wider than the tolerance: most look-ups then visit a single cell.
     [[nodiscard]] Cell cell_of(const Vector3d& point) const {
         return ((point - lowest_) / (4.0 * tolerance_)).array().floor().matrix().cast<std::int64_t>();
     }
@@ -67,9 +67,9 @@ class VertexGrid {
     std::unordered_map<std::uint64_t, std::vector<std::int32_t>> cells_;
 };
 
-// Far from the origin the numbers of a file, most often of 32 bits, are wide apart beside a small body.
+// Far from the origin the numbers of a file, most often of 32 bits, are too coarse for a small body.
 void require_numbers_that_tell_it_apart(const Surface& surface, const Eigen::AlignedBox3d& box) {
-    constexpr double coarsest = 1e-4;  // over the extent
+    constexpr double coarsest = 1e-4;  // relative to the extent
     const double extent = box.diagonal().norm();
     const double farthest =
         std::max(box.min().lpNorm<Eigen::Infinity>(), box.max().lpNorm<Eigen::Infinity>());

@@ -1,6 +1,8 @@
 #include "samara/core/wind/wind_field.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <numeric>
 
@@ -9,7 +11,6 @@
 
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/kernel/noise.hpp"
-#include "samara/core/wind/grid_wind.hpp"
 
 namespace samara {
 namespace {
@@ -39,7 +40,7 @@ void set_profile(const Wind& wind, WindConstants& constants) {
 }
 
 VortexConstants constants_of(const WindVortex& vortex) {
-    return {.rankine = vortex.kind == WindVortex::Core::rankine,
+    return {.rankine = vortex.type == WindVortex::Core::rankine,
             .position = triple(vortex.position),
             .axis = triple(vortex.axis),
             .velocity = triple(vortex.velocity),
@@ -49,7 +50,7 @@ VortexConstants constants_of(const WindVortex& vortex) {
 }
 
 FanConstants constants_of(const WindFan& fan) {
-    // The bell with the momentum of an even flow through the fan's circle.
+    // The bell-shaped jet with the momentum of an even flow through the fan's circle.
     const double width = std::numbers::sqrt2 * 0.5 * fan.diameter;
     return {.position = triple(fan.position),
             .direction = triple(fan.direction),
@@ -60,6 +61,78 @@ FanConstants constants_of(const WindFan& fan) {
 
 Vector3d column(const double (&rows)[3][WindBlock::size], std::size_t lane) {
     return {rows[0][lane], rows[1][lane], rows[2][lane]};
+}
+
+/// The nodes along one axis that determine the value at a coordinate, and their weights.
+struct AxisWeights {
+    std::size_t node[4] = {};
+    double value[4] = {};
+    double slope[4] = {};  ///< weights of the value's slope, per node distance
+    int count = 0;
+};
+
+/// The values beyond the first and last node.
+enum class Beyond { edge, nothing, first };
+
+/// Returns the weights of Keys' cubic convolution with a = -1/2. `at`: in nodes from the first.
+AxisWeights axis_weights(double at, std::size_t nodes, Beyond beyond) noexcept {
+    AxisWeights weights;
+    const auto last = static_cast<double>(nodes - 1);
+    bool is_level = false;
+    if (beyond == Beyond::edge) {
+        is_level = at < 0.0 || at > last || nodes == 1;
+        at = std::clamp(at, 0.0, last);
+    } else if (beyond == Beyond::first) {
+        const auto period = static_cast<double>(nodes);
+        at -= period * std::floor(at / period);
+    } else if (!(at > -1.0 && at < last + 1.0)) {
+        return weights;
+    }
+    const double floor = std::floor(at);
+    const double t = at - floor;
+    const auto first = static_cast<std::ptrdiff_t>(floor) - 1;
+    const double t2 = t * t;
+    const double t3 = t2 * t;
+    const double value[4] = {-0.5 * t + t2 - 0.5 * t3, 1.0 - 2.5 * t2 + 1.5 * t3,
+                             0.5 * t + 2.0 * t2 - 1.5 * t3, -0.5 * t2 + 0.5 * t3};
+    const double slope[4] = {-0.5 + 2.0 * t - 1.5 * t2, -5.0 * t + 4.5 * t2, 0.5 + 4.0 * t - 4.5 * t2,
+                             -t + 1.5 * t2};
+    const auto add = [&](std::ptrdiff_t node, double v, double s) {
+        weights.node[weights.count] = static_cast<std::size_t>(node);
+        weights.value[weights.count] = v;
+        weights.slope[weights.count++] = is_level ? 0.0 : s;
+    };
+    const auto end = static_cast<std::ptrdiff_t>(nodes);
+    if (beyond == Beyond::edge && nodes == 1) {
+        add(0, 1.0, 0.0);
+        return weights;
+    }
+    if (beyond == Beyond::edge && (first < 0 || first + 3 >= end)) {
+        // A node beyond the edge is extrapolated: it is twice the last less the one before.
+        double values[4] = {value[0], value[1], value[2], value[3]};
+        double slopes[4] = {slope[0], slope[1], slope[2], slope[3]};
+        const auto fold = [&](int ghost, int near, int far) {
+            values[near] += 2.0 * values[ghost];
+            slopes[near] += 2.0 * slopes[ghost];
+            values[far] -= values[ghost];
+            slopes[far] -= slopes[ghost];
+            values[ghost] = slopes[ghost] = 0.0;
+        };
+        for (int i = 3; i >= 2; --i) {
+            if (first + i >= end) fold(i, i - 1, i - 2);
+        }
+        if (first < 0) fold(0, 1, 2);
+        for (int i = 0; i < 4; ++i) {
+            if (first + i >= 0 && first + i < end) add(first + i, values[i], slopes[i]);
+        }
+        return weights;
+    }
+    for (int i = 0; i < 4; ++i) {
+        std::ptrdiff_t node = first + i;
+        if (beyond == Beyond::first) node = ((node % end) + end) % end;
+        if (node >= 0 && node < end) add(node, value[i], slope[i]);
+    }
+    return weights;
 }
 
 }  // namespace
@@ -97,8 +170,8 @@ void WindField::add_file(double time, std::size_t count, WindBlock& block) const
 
 bool WindField::add_function(double time, const WindSpan& span, std::size_t count,
                              WindBlock& block) const noexcept {
-    // Along each axis to both sides: their mean is that over a sphere as far as the second derivatives go
-    // (Faxen), their differences are the gradient.
+    // Places on both sides along each axis: the mean is that over a sphere up to the second derivatives
+    // (Faxen), the differences are the gradient.
     double places[WindBlock::size * places_around * 3];
     double velocities[2][WindBlock::size * places_around * 3] = {};
     const std::size_t all = count * places_around;
@@ -155,7 +228,7 @@ std::string description_of(const Wind& wind) {
                             g.seed.value_or(0), g.bands);
     }
     for (const WindVortex& v : wind.vortices) {
-        text += fmt::format(" vortex {} {} {} {} {} {}", static_cast<int>(v.kind), numbers(v.position),
+        text += fmt::format(" vortex {} {} {} {} {} {}", static_cast<int>(v.type), numbers(v.position),
                             numbers(v.axis), v.circulation, v.core, numbers(v.velocity));
     }
     for (const WindFan& f : wind.fans) {
@@ -174,14 +247,14 @@ std::string description_of(const Wind& wind) {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double von_karman_factor =
-    1.339;  // Gamma(1/3)/(sqrt(pi) Gamma(5/6)): L is then the integral length
-// Wave numbers times the length, of the bands.
+// Gamma(1/3)/(sqrt(pi) Gamma(5/6)): L is then the integral length
+constexpr double von_karman_factor = 1.339;
+// The wave numbers of the bands times the length.
 constexpr double lowest = 0.1;
 constexpr double highest = 100.0;
 constexpr double nothing_below = 1e-6;
 
-/// (k1 to k2) of E dk, by Simpson's rule over ln k.
+/// Returns the integral of E from k1 to k2, by Simpson's rule over ln k.
 double energy_between(const WindGusts& gusts, double first, double last) {
     const double span = std::log(last / first);
     const int halves = 2 * static_cast<int>(std::ceil(span / 0.1));
@@ -208,7 +281,7 @@ double energy_spectrum(const WindGusts& gusts, double k) noexcept {
 }
 
 std::vector<GustWave> gust_waves(const WindGusts& gusts) {
-    // Named by no body, so that it is nobody's noise.
+    // A name that no body can have, so that the numbers are no body's noise.
     const Noise noise(gusts.seed.value_or(0), "[wind]", 0, 0);
     std::vector<GustWave> waves;
     const double ratio = std::pow(highest / lowest, 1.0 / gusts.bands);
@@ -235,6 +308,49 @@ std::vector<GustWave> gust_waves(const WindGusts& gusts) {
         }
     }
     return waves;
+}
+
+GridWind grid_wind(const WindFile& file, const Vector3d& place, double time) noexcept {
+    const WindGrid& grid = *file.grid;
+    const Vector3d at = (place - file.position - grid.origin).cwiseQuotient(grid.spacing);
+    const Beyond beyond = file.outside == WindFile::Outside::still ? Beyond::nothing : Beyond::edge;
+    const AxisWeights x = axis_weights(at.x(), grid.nodes[0], beyond);
+    const AxisWeights y = axis_weights(at.y(), grid.nodes[1], beyond);
+    const AxisWeights z = axis_weights(at.z(), grid.nodes[2], beyond);
+    const AxisWeights t = axis_weights((time - file.start) / grid.interval, grid.frames,
+                                       file.repeats ? Beyond::first : Beyond::edge);
+    Vector3d velocity = Vector3d::Zero();
+    Vector3d rate = Vector3d::Zero();
+    Matrix3d gradient = Matrix3d::Zero();  // per node distance
+    for (int l = 0; l < t.count; ++l) {
+        Vector3d volume[4] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+        for (int k = 0; k < z.count; ++k) {
+            Vector3d layer[3] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+            for (int j = 0; j < y.count; ++j) {
+                const std::size_t row =
+                    ((t.node[l] * grid.nodes[2] + z.node[k]) * grid.nodes[1] + y.node[j]) * grid.nodes[0];
+                Vector3d value = Vector3d::Zero();
+                Vector3d slope = Vector3d::Zero();
+                for (int i = 0; i < x.count; ++i) {
+                    const float* node = &grid.velocities[(row + x.node[i]) * 3];
+                    const Vector3d there(node[0], node[1], node[2]);
+                    value += x.value[i] * there;
+                    slope += x.slope[i] * there;
+                }
+                layer[0] += y.value[j] * value;
+                layer[1] += y.value[j] * slope;
+                layer[2] += y.slope[j] * value;
+            }
+            volume[0] += z.value[k] * layer[0];
+            volume[1] += z.value[k] * layer[1];
+            volume[2] += z.value[k] * layer[2];
+            volume[3] += z.slope[k] * layer[0];
+        }
+        velocity += t.value[l] * volume[0];
+        rate += t.slope[l] * volume[0];
+        for (int axis = 0; axis < 3; ++axis) gradient.col(axis) += t.value[l] * volume[axis + 1];
+    }
+    return {velocity, gradient * grid.spacing.cwiseInverse().asDiagonal(), rate / grid.interval};
 }
 
 }  // namespace samara

@@ -7,7 +7,7 @@
 namespace samara {
 
 /// Reads a wind file (docs/file-formats). Throws Error, naming the file and the place in it, where it is
-/// missing, cut short, damaged, of another kind or from a newer version, and where its content breaks a rule:
+/// missing, cut short, damaged, of another type or from a newer version, and where its content breaks a rule:
 /// a node, a time, a positive spacing and interval, finite velocities.
 WindGrid read_wind_file(const std::filesystem::path& file);
 

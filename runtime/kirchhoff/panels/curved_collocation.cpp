@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/error.hpp"
-#include "samara/core/base/large_array.hpp"
+#include "samara/core/base/machine_memory.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/kirchhoff/operators/boundary_elements.hpp"
 #include "samara/kirchhoff/panels/curved_panels.hpp"

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "samara/core/base/as_index.hpp"
+#include "samara/core/base/numbers.hpp"
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "samara/core/surface/surface_edges.hpp"

@@ -149,10 +149,10 @@ TEST(MotionParameters, AreNothingWhereTheTermIsLeftOut) {
         std::ptrdiff_t fixed = 0;
         for (const MotionParameter& one : parameters.all()) fixed += one.lower == one.upper ? 1 : 0;
         const bool is_shared =
-            name == "turning transport" || name == "drag in spin" || name == "drag in motion";
+            name == "rotational transport" || name == "drag in spin" || name == "drag in motion";
         EXPECT_EQ(fixed, is_shared ? 0 : name == "unsteady factor" ? 1 : 3) << name;
         EXPECT_EQ(coefficients.unsteady_factor, 1.0) << name;
-        const bool of_rotation = name == "turning transport";
+        const bool of_rotation = name == "rotational transport";
         EXPECT_EQ(coefficients.rotational_transport, of_rotation ? 0.0 : 1.0) << name;
         for (const TensorOfMotion& tensor : tensors_of_motion) {
             const bool is_none = coefficients.*tensor.member == Matrix3d::Zero();

@@ -9,7 +9,7 @@
 #include <openvdb/tools/Dense.h>
 
 #include "converter/wind/wind_readers.hpp"
-#include "samara/core/wind/grid_wind.hpp"
+#include "samara/core/wind/wind_field.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/core/base/base64.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

@@ -174,7 +174,7 @@ TEST(InfoCommand, ShowsDynamicCoefficientsWithTheirErrors) {
     EXPECT_EQ(outcome.status, 0);
     for (const char* part :
          {"identified from 3 falls", "0.8 +- 0.06", "(0.05, 0.02, -0.006) +- (0.0004, 0.0004, 0.0004) m^3",
-          "settling ways", "1.3 +- 0.05", "(0.3, 0.2, 0.1) +- (0.007, 0.007, 0.007) m^2",
+          "settling length", "1.3 +- 0.05", "(0.3, 0.2, 0.1) +- (0.007, 0.007, 0.007) m^2",
           "(0.01, 0.03, -0.02)"}) {
         EXPECT_THAT(outcome.output, HasSubstr(part));
     }

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/core/files/json_size.hpp"
+#include "samara/core/files/input_file.hpp"
 #include "support/expect_error.hpp"
 
 namespace samara {

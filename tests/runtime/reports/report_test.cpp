@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "paths.hpp"
-#include "samara/core/base/base64.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/reports/bake_verdict.hpp"

@@ -6,7 +6,7 @@
 #include "paths.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/body/body_file.hpp"
-#include "samara/core/dynamics/prepared_bodies.hpp"
+#include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"

@@ -69,7 +69,7 @@ speed = 2)",
         (WindGusts{
             .spectrum = WindGusts::Spectrum::kaimal, .rms = 0.5, .length = 2.0, .seed = 7, .bands = 20}));
     ASSERT_EQ(wind.vortices.size(), 1u);
-    EXPECT_EQ(wind.vortices[0], (WindVortex{.group = WindVortex::Core::rankine,
+    EXPECT_EQ(wind.vortices[0], (WindVortex{.type = WindVortex::Core::rankine,
                                             .position = Vector3d(1, 2, 3),
                                             .axis = Vector3d(0, 0, -1),
                                             .circulation = -1.5,

@@ -29,7 +29,7 @@ std::string error_after(const std::function<void(Body&)>& change) {
 TEST(BodyCheck, SoundBodiesPass) {
     EXPECT_EQ(error_of(test::full_body()), "");
     EXPECT_EQ(error_of(test::rubber_ellipsoid()), "");
-    EXPECT_EQ(error_of(test::exact_sphere(0.01)), "");  // turns without moving any fluid
+    EXPECT_EQ(error_of(test::exact_sphere(0.01)), "");  // rotates without moving any fluid
     EXPECT_EQ(error_of(test::lopsided_shape()), "");
     for (const double size : {1e-6, 1e6}) {
         Body body = test::full_body();

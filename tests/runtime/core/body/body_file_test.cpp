@@ -236,8 +236,8 @@ TEST(BodyFile, ForeignHdf5IsRefused) {
     EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("not a body file"));
 }
 
-/// Reads 400 copies of a body file with one bit flipped in each. Returns whether every one was refused by
-/// name or gave the same body (what is not read may be flipped), and most were refused.
+/// Reads 400 copies of a body file with one bit flipped in each. Returns whether every one was rejected by
+/// name or gave the same body (bits that are not read may be flipped), and most were rejected.
 bool every_flip_is_seen(const test::TemporaryFolder& folder) {
     const Body body = test::full_body();
     const std::filesystem::path file = folder / "a.body.h5";
@@ -263,8 +263,8 @@ bool every_flip_is_seen(const test::TemporaryFolder& folder) {
 }
 
 TEST(BodyFile, FlippedBitNeverGivesAnotherBodyInSilence) {
-    // In a process of its own: HDF5 1.10 loses memory when it meets damaged metadata, as a plain C program
-    // that opens and closes such files shows.
+    // In a process of its own: HDF5 1.10 loses memory on damaged metadata, as a plain C program that opens
+    // and closes such files shows.
     const test::TemporaryFolder folder;
     EXPECT_EXIT(std::_Exit(every_flip_is_seen(folder) ? 0 : 1), testing::ExitedWithCode(0), "");
 }
@@ -374,7 +374,7 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
     }
     const std::string error = reading_error(folder / "a.body.h5");
     EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
-                             HasSubstr("remove the group to fly with defaults")));
+                             HasSubstr("remove the group to use the defaults")));
     EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 

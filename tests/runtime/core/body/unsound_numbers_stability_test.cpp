@@ -1,4 +1,4 @@
-// What is not a number is refused where it comes in: scene file and body file.
+// Values that are not numbers are rejected where they come in: scene file and body file.
 
 #include <limits>
 #include <string>

@@ -1,4 +1,4 @@
-// Simulations that share a body: each flies as if the body were its own.
+// Simulations that share a body: each moves as if the body were its own.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a kind may leave out of the equations, as a body of a scene may.
+// The terms that a body group may leave out of the equations, as a body of a scene may.
 
 #include <cstddef>
 #include <cstring>

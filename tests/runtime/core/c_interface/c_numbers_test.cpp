@@ -1,4 +1,5 @@
-// Every number that the C interface takes, at the ends of the range of doubles: what it accepts it flies.
+// Every number that the C interface takes, at the ends of the range of doubles: accepted numbers are
+// simulated.
 
 #include <cmath>
 #include <limits>
@@ -40,7 +41,8 @@ bool is_sound(const samara_pose& pose) {
     return finite;
 }
 
-/// Looks at the poses now, and flies on; the statuses may refuse, but what is given out is sound.
+/// Checks the poses now, and advances; the statuses may be errors, but all values that are returned are
+/// sound.
 void expect_sound(const SimulationPointer& simulation, const std::string& what) {
     Text error;
     for (const double time : {0.0, 0.001, 0.0055, 0.02}) {

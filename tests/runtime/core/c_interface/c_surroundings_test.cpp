@@ -92,7 +92,7 @@ void set_wind(const SimulationPointer& simulation, const char* wind) {
     ASSERT_EQ(CALL(samara_set_wind, simulation.get(), wind), SAMARA_OK) << error.text();
 }
 
-/// The poses of the same bodies in a flight with these settings.
+/// The poses of the same bodies in a simulation with these settings.
 std::vector<Vector3d> velocities_in(const SimulationSettings& settings, const BodyOnDisk& body,
                                     const samara_body_group& group, double time) {
     Simulation simulation(settings);

@@ -23,7 +23,7 @@ using test::Text;
 
 constexpr double turning = 2.0;  // 1/s
 
-/// Turns about the vertical, and breathes.
+/// A wind that rotates about the vertical, and pulsates.
 void whirl(void* context, double time, std::size_t count, const double* places, double* velocities) {
     const double strength = *static_cast<const double*>(context) * (1.0 + 0.2 * std::sin(3.0 * time));
     for (std::size_t i = 0; i < count; ++i) {

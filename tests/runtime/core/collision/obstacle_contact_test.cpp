@@ -1,4 +1,4 @@
-// Bodies that meet obstacles: exact cases, and that nothing passes through.
+// Bodies that touch obstacles: exact cases, and that nothing passes through.
 
 #include <cmath>
 #include <numbers>

@@ -64,7 +64,7 @@ TEST(SampledTurbulence, ForgetsAtTheRateOfTheTurbulence) {
     EXPECT_LT((covariance / variance - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.03);
 }
 
-/// The correlation of the velocity with itself `lag` steps later, over a long flight.
+/// The correlation of the velocity with itself `lag` steps later, over a long simulation.
 double correlation(const ImmersedBody& body, double h, std::size_t lag, int steps) {
     const Noise noise(6, "correlation time", 0, 0);
     std::vector<Vector3d> last(lag, Vector3d::Zero());
@@ -117,7 +117,7 @@ TEST(SampledTurbulence, IsIsotropicInTheWorldAroundASpinningBody) {
 }
 
 TEST(SampledTurbulence, RotatesTheFasterTheSmallerTheBody) {
-    // The fluid turns over the body's length: half the length, twice the rotation.
+    // The fluid rotates over the body's length: half the length, twice the rotation.
     ImmersedBody body = test::ideal_ellipsoid();
     const Noise noise(8, "length", 0, 0);
     const SampledTurbulence large = advance_sampled_turbulence(body, level, {}, 0.1, noise, 0);

@@ -111,7 +111,7 @@ TEST(CoefficientLoads, HaveNoSingularityNorJumpAndDoNotSeeTheSignOfTheNormal) {
         const Vector3d next(std::cos(angle + 1e-6), std::sin(angle + 1e-6), 0.0);
         const Vector3d force = steady_force(body, direction);
         EXPECT_EQ(force, steady_force(flipped, direction));
-        // Drag turns at the rate C_d = 1, lift changes by at most 2 C_l = 2.
+        // Drag rotates at the rate C_d = 1, lift changes by at most 2 C_l = 2.
         EXPECT_LT((steady_force(body, next) - force).norm(), 3.01e-6 * along.norm());
         // The lift is C_l sin 2 alpha of the incidence alpha of the plate: 90 degrees less the angle to its
         // normal.

@@ -10,8 +10,8 @@
 #include "support/known_bodies.hpp"
 #include "support/reference_step.hpp"
 
-// The terms of the loads of a body that turns, written out as docs/theory has them ("Loads of a moving
-// body"): moment about the centroid (N m) and force (N), body axes, of a motion (rad/s, m/s).
+// The terms of the loads of a rotating body, written out as docs/theory has them ("Loads of a moving body"):
+// moment about the centroid (N m) and force (N), body axes, of a motion (rad/s, m/s).
 
 namespace samara::test {
 
@@ -22,7 +22,7 @@ inline Vector3d random_vector(std::mt19937& generator) {
     return {x, y, normal(generator)};
 }
 
-/// Speeds about 0.2 m/s; turning rates of a thousandth to a thousand radians a second, as i goes on.
+/// Speeds about 0.2 m/s; angular velocities of a thousandth to a thousand radians a second, as i goes on.
 inline Vector6d random_motion(std::mt19937& generator, int i) {
     Vector6d motion;
     motion << std::pow(10.0, i % 7 - 3) * random_vector(generator), 0.2 * random_vector(generator);
@@ -41,7 +41,7 @@ inline Vector6d loads_at(const ImmersedBody& body, const Vector6d& motion) {
 }
 
 /// The body without dynamic coefficients; also without tables' loads where `table` is false, so that no load
-/// but the creeping turn is left.
+/// but the moment of creeping rotation is left.
 inline ImmersedBody bare(ImmersedBody body, bool table) {
     const double half_length = body.dynamic.half_length;
     body.dynamic = {};

@@ -1,5 +1,5 @@
-// Loads of a body that turns, at their limits: on the spot, at rest, in a steady translation, in a fluid that
-// turns, in other axes.
+// Loads of a rotating body, at their limits: on the spot, at rest, in a steady translation, in a rotating
+// fluid, in other axes.
 
 #include <cmath>
 #include <random>
@@ -66,8 +66,8 @@ TEST(MovingLoads, DragInMotionIsOfTheBodysOwnTurning) {
     prepare(body);
     const Vector3d velocity(0.1, -0.2, 0.2);
     const Vector6d relative = motion_of(Vector3d(3.0, -1.0, 2.0), velocity);
-    // The body turns by `own` in a fluid that turns too, so that its turning relative to the fluid is always
-    // the same.
+    // The body rotates by `own` in a rotating fluid, so that its rotation relative to the fluid is always the
+    // same.
     const auto drag_at = [&](const Vector3d& own) {
         const Vector3d seen = own - relative.head<3>();
         const Vector6d motion = motion_of(own, velocity);
@@ -101,7 +101,7 @@ TEST(MovingLoads, ArePassiveInAFluidThatTurns) {
 }
 
 TEST(MovingLoads, KeepTheTablesMomentUntilTheBodyDoesLittleButTurn) {
-    // A body whose moment is along its force, about which it turns: no arm, and so no change of the local
+    // A body whose moment is along its force, about which it rotates: no arm, and so no change of the local
     // velocity.
     ImmersedBody body = bare(test::blunt_ellipsoid(), true);
     for (LoadEntry& entry : body.tables->entries) entry.moment = 0.1 * entry.force;

@@ -1,5 +1,4 @@
-// Loads of a body that turns: each term is what docs/theory says ("Loads of a moving body"), and does its
-// work.
+// Loads of a rotating body: each term is as in docs/theory ("Loads of a moving body"), and does its work.
 
 #include <cmath>
 #include <functional>
@@ -77,7 +76,7 @@ TEST(MovingLoads, EachTermIsItsFormula) {
             const Vector6d motion = random_motion(generator, i);
             const Vector6d expected = term.formula(Motion(body, motion));
             const Vector6d added = added_by(term.keep, motion);
-            // Beside the creeping turn, which is taken away again.
+            // Without the moment of creeping rotation, which is subtracted again.
             const double rounding = 1e-12 * creeping_turn(Motion(body, motion)).norm();
             EXPECT_LT((added - expected).head<3>().norm(), 1e-12 * expected.head<3>().norm() + rounding);
             EXPECT_LT((added - expected).tail<3>().norm(), 1e-12 * expected.tail<3>().norm() + 1e-300);
@@ -106,7 +105,7 @@ TEST(MovingLoads, TransportAndWakeDoNoWorkAndTheDragsTakeEnergyAway) {
     }
 }
 
-/// The lopsided body whose surface meets the flow in so many patches.
+/// The lopsided body with its surface in so many patches.
 ImmersedBody patched_body(int patches) {
     SceneBody given = test::scene_body(1200.0);
     given.patches = patches;

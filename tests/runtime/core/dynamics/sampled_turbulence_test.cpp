@@ -146,7 +146,7 @@ TEST(SampledTurbulence, APrescribedStreamMovesABodyAsTheSameGustDoes) {
         expected.position += carried;
         // But for the guess from which a step's middle is found, which knows the stream and not the gust.
         EXPECT_LT(distance(seeing, expected), 1e-6);
-        // And the gust did something: without its acceleration the body flies elsewhere.
+        // The gust has an effect: without its acceleration the body moves elsewhere.
         BodyState unmoved = start;
         for (int i = 0; i < 300; ++i) unmoved = implicit_step(body, gravity, h, unmoved);
         EXPECT_GT(distance(unmoved, seeing), 1e-3);
@@ -171,8 +171,8 @@ TEST(SampledTurbulence, ABodyOfTheFluidsDensityFollowsAStreamThatAccelerates) {
 }
 
 TEST(SampledTurbulence, ThatOnlyTurnsDoesNotPushABodyAside) {
-    // Transport and wake turn with the body's axes, as the Kirchhoff terms do that they belong to: an eddy's
-    // rotation meets neither, and a body without drag in spin feels nothing of it.
+    // Transport and wake rotate with the body's axes, like the Kirchhoff terms that they belong to: an eddy's
+    // rotation affects neither, and a body without drag in spin feels nothing of it.
     ImmersedBody body = test::lopsided_body(offset);
     body.dynamic.drag_in_motion.setZero();
     body.dynamic.rotational_drag.setZero();
@@ -221,7 +221,7 @@ TEST(SampledTurbulence, SubstepsDivideTheStream) {
 
 TEST(SampledTurbulence, DoesNotChangeTheNumberOfSubstepsOfABodyCarriedAlong) {
     ImmersedBody body = test::blunt_ellipsoid();
-    body.turbulence = Turbulence::constant;  // of nothing: what was seen is gone at the step's end
+    body.turbulence = Turbulence::constant;  // of nothing: the sampled turbulence is gone at the step's end
     prepare(body);
     BodyState carried = test::tumbling_state(0.0, 1.0);
     carried = seen_from(carried, Vector3d(200.0, 0.0, 0.0), 0.0);

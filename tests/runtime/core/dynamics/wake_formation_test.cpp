@@ -27,7 +27,7 @@ Vector6d acceleration_of(const ImmersedBody& body, const BodyState& state) {
         .head<6>();
 }
 
-/// Moving without turning, askew to its axes, with such a share of transport and so steady a heading.
+/// A translation oblique to its axes, with such a share of transport and so steady a heading.
 BodyState towed(const Vector3d& velocity, double formed, double steady) {
     BodyState state;
     state.orientation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1.0, -2.0, 0.5).normalized()));
@@ -36,7 +36,7 @@ BodyState towed(const Vector3d& velocity, double formed, double steady) {
     return state;
 }
 
-/// Goes on as it was thrown, without turning.
+/// Moves on as it was thrown, without rotation.
 ImmersedBody heavy_ellipsoid() {
     Body shape = test::rubber_ellipsoid();
     shape.tables = test::blunt_tables(shape, 4);
@@ -103,7 +103,7 @@ TEST(WakeFormation, BringsTheSteadyMomentFromRestAfterTheLengthOfTranslations) {
 }
 
 TEST(WakeFormation, OfASwingHasLittleOfTheSteadyMoment) {
-    // The ellipsoid is rocked to and fro in its way: 40 degrees to either side, eight extents a swing.
+    // The ellipsoid is rocked to and fro on its path: 40 degrees to either side, eight extents a swing.
     ImmersedBody body = heavy_ellipsoid();
     body.dynamic.settling_length = settling_length_of_falls;
     prepare(body);

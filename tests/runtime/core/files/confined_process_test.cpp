@@ -254,7 +254,7 @@ TEST(ConfinedProcess, HasAnEnd) {
         HasSubstr("without computing"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these end where memory is refused
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these end where memory is denied
 TEST(ConfinedProcess, WantsNoMoreMemoryThanItsShare) {
     ConfinedLimits limits;
     limits.memory = 0.01;

@@ -30,7 +30,7 @@ class CraftedBody : public testing::Test {
   protected:
     void SetUp() override { write_body_file(file_, test::full_body()); }
 
-    /// Whether the reader, the commands and the C interface refuse the file with one line that says `what`.
+    /// Whether the reader, the commands and the C interface reject the file with one line that says `what`.
     void expect_rejection(const std::string& what) const {
         EXPECT_THAT(error_of([&] { (void)read_body_file(file_); }), HasSubstr(what));
         samara_body* loaded = nullptr;
@@ -82,7 +82,7 @@ TEST_F(CraftedBody, TablesThatClaimGigabytesAreRefusedEverywhere) {
     put_dataset(file_, "/tables/force", H5::PredType::IEEE_F64LE, {1'000'000, 31, 31, 3},
                 in_chunks({1, 31, 31, 3}));
     expect_rejection("/tables/force claims values that are not stored");
-    // The other way: few bytes for the numbers, and a map that multiplies them.
+    // The other case: few bytes for the numbers, and a map that multiplies them.
     Body body = test::full_body();
     body.tables->reynolds_numbers.resize(20'000);
     for (std::size_t i = 0; i < 20'000; ++i) {

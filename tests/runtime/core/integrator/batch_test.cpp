@@ -34,7 +34,7 @@ ImmersedBody noisy_lopsided_body(Turbulence turbulence = Turbulence::table) {
     return body;
 }
 
-/// The same whose surface meets the flow in patches.
+/// The same body with its surface in patches.
 ImmersedBody noisy_patched_body() {
     SceneBody given = test::scene_body(1200.0);
     given.patches = 6;

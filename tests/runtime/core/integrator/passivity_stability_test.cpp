@@ -44,7 +44,8 @@ double energy_terms(const ImmersedBody& body, const BodyState& state) {
 /// What a rise of the energy is measured by.
 using EnergyScale = std::function<double(const ImmersedBody&, const BodyState&)>;
 
-/// The largest rise of the energy in a step over the flight, over its scale; infinity where a number is lost.
+/// The largest rise of the energy in a step of the simulation, relative to its scale; infinity where a number
+/// is lost.
 double largest_rise(const ImmersedBody& body, BodyState state, double h, int steps, const Step& step,
                     const EnergyScale& scale = kinetic_energy) {
     double largest = 0.0;

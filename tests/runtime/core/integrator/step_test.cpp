@@ -69,7 +69,8 @@ TEST(ImplicitStep, KeepsKineticPlusPotentialEnergyUnderGravity) {
     };
     const BodyState start = test::tumbling_state(0.2, 3.0);
     const double scale = kinetic_energy(body, start);
-    // Of the second order, since the body's turn is found by passes: a quarter of the error at half the step.
+    // Of the second order, since the body's rotation is found by passes: a quarter of the error at half the
+    // step.
     const double coarse = std::abs(energy(flown(body, start, 1.0, 1000)) - energy(start)) / scale;
     const double fine = std::abs(energy(flown(body, start, 1.0, 2000)) - energy(start)) / scale;
     EXPECT_LT(coarse, 1e-4);

@@ -18,7 +18,7 @@ namespace {
 
 const Surroundings still_water{.gravity = Vector3d(0.0, 0.0, -9.81)};
 
-/// The mean speed along z of many copies with table turbulence, after a first part of the flight.
+/// The mean speed along z of many copies with table turbulence, after a first part of the simulation.
 double mean_climb(const ImmersedBody& body, double h, double duration, std::size_t copies) {
     Batch batch(body, copies);
     for (std::size_t i = 0; i < copies; ++i) {
@@ -68,7 +68,7 @@ TEST(Noise, TheMeanClimbOfABubbleIsThatOfAFineStep) {
 }
 
 TEST(Noise, ABallFallsInItsTurbulenceAsItDoesInStillFluid) {
-    // The table's drag is that of the turbulent flow; what the turbulence turns adds none. The map is fine,
+    // The table's drag is that of the turbulent flow; rotation by turbulence adds none. The map is fine,
     // since between the nodes of a coarse one a sphere's drag is some 8 % low, and only the noisy ball gets
     // there.
     ImmersedBody ball = test::immersed(test::baked_sphere(0.02, 16), 1300.0, test::water());
@@ -80,7 +80,7 @@ TEST(Noise, ABallFallsInItsTurbulenceAsItDoesInStillFluid) {
                       0.05, std::abs(noisy / quiet - 1.0)});
 }
 
-/// The root of the mean square of |omega| over a part of a flight, of which the steps are counted from the
+/// The root of the mean square of |omega| over a part of a simulation, whose steps are counted from the
 /// first.
 double rms_rotation(const ImmersedBody& body, BodyState& state, std::uint64_t first, std::uint64_t steps) {
     const Noise noise(6, "turning", 0, 0);

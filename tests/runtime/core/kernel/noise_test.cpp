@@ -25,7 +25,7 @@ TEST(Noise, EverythingInTheKeyChangesTheNumbers) {
     EXPECT_NE(base, Noise(1, "a", 1, 0).normals(5, NoiseStream::sampled_turbulence));
     EXPECT_NE(base, Noise(1, "a", 0, 1).normals(5, NoiseStream::sampled_turbulence));
     EXPECT_NE(base, Noise(1, "a", 0, 0).normals(6, NoiseStream::sampled_turbulence));
-    EXPECT_NE(base, Noise(1, "a", 0, 0).normals(5, NoiseStream::seen_rotation));
+    EXPECT_NE(base, Noise(1, "a", 0, 0).normals(5, NoiseStream::sampled_rotation));
     EXPECT_NE(base,
               Noise(1, "a", 0, 0).normals(5 + (std::uint64_t{1} << 32U), NoiseStream::sampled_turbulence));
 }

@@ -1,6 +1,4 @@
-// The slip by which a body's own wake makes its loads fluctuate.
-#include "samara/core/kernel/wake_noise.hpp"
-
+// The velocity fluctuation by which a body's own wake makes its loads fluctuate.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "samara/core/dynamics/loads.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "samara/core/kernel/kernel.hpp"
+#include "samara/core/kernel/step_constants.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/reference_step.hpp"
 
@@ -101,7 +100,7 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
     state.wake = {1.0, Vector3d(0.2, 0.0, 0.1).normalized()};
     for (std::uint64_t step = 0; step < 20; ++step) {
         const BodyState after = advance(body, weightless, 0.0, h, state, noise, step).state;
-        // The same step in the stream that stands between the two slips.
+        // The same step in the stream of the mean of the two fluctuations.
         BodyState frozen = state;
         frozen.sampled_turbulence = after.sampled_turbulence;
         frozen.sampled_turbulence.velocity =
@@ -115,12 +114,12 @@ TEST(WakeNoise, PushesByTheLoadsAtTheSlipAndNotByItsChange) {
     }
 }
 
-/// One step in the frozen slip of a wake (m/s, world axes).
+/// One step in the frozen fluctuation of a wake (m/s, world axes).
 BodyState stepped(const ImmersedBody& body, const Vector3d& wake_fluctuation, double h,
                   const BodyState& state) {
     BodyState after = state;
-    const kernel::SeenStream stream{wake_fluctuation, wake_fluctuation, Vector3d::Zero(), true, true,
-                                    wake_fluctuation};
+    const kernel::SampledStream stream{wake_fluctuation, wake_fluctuation, Vector3d::Zero(), true, true,
+                                       wake_fluctuation};
     kernel::implicit_step(body.constants, Vector3d::Zero(), h, stream, 0, 1, nullptr, after);
     return after;
 }
@@ -154,7 +153,7 @@ TEST(WakeNoise, HasTheShadowsAlongThePrincipalAxes) {
         1e-6 * exact.x());
 }
 
-// In the frame of the slip no load but drag changes the energy of body and fluid.
+// In the frame of the fluctuation no load but drag changes the energy of body and fluid.
 TEST(WakeNoise, MakesNoEnergyInTheFrameOfItsSlip) {
     for (const double h : {0.002, 0.05}) {
         const ImmersedBody body = ellipsoid_with_a_wake(1200.0);

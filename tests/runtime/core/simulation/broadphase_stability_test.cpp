@@ -25,7 +25,7 @@ struct Heap {
     int count;
 };
 
-/// What was seen while a heap fell together.
+/// Extremes while a heap fell together.
 struct Seen {
     double rise = 0.0;     ///< of the energy in a step, over the weight of a body times its radius
     double deepest = 0.0;  ///< below the ground, over the radius

@@ -1,4 +1,4 @@
-// Bodies that meet: exact cases, and what a meeting depends on.
+// Bodies that collide: exact cases, and what a collision depends on.
 #include "samara/core/simulation/broadphase.hpp"
 
 #include <chrono>
@@ -135,7 +135,7 @@ TEST(Broadphase, TheFluidThatBodiesCarryMeetsWithThem) {
     simulation.add(wet, light, {.position = {0.05, 0, 0}}, "b");
     simulation.advance_to(0.4);
     EXPECT_NEAR(simulation.pose(0).velocity.x(), 2500.0 / (2500.0 + 600.0), 2e-3);
-    // Balls of triangles are struck a little beside their middles: they go on together, turning slowly.
+    // Balls of triangles are struck a little beside their middles: they go on together, rotating slowly.
     const double turning = simulation.pose(0).angular_velocity.norm();
     EXPECT_LT(turning, 2e-3);
     EXPECT_NEAR(simulation.pose(1).velocity.x(), simulation.pose(0).velocity.x(), turning * 0.01);

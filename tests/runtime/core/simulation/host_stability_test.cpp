@@ -30,7 +30,7 @@ bool is_finite(const Simulation& simulation) {
 }
 
 /// Pushes the bodies about for two seconds; returns false where a motion left the range of numbers, which the
-/// flight must say.
+/// simulation must report.
 bool survives(double density, double step, double size) {
     Simulation simulation = made(density, step);
     try {

@@ -1,4 +1,4 @@
-// What hosts ask of a flight: pushes, impulses, bodies taken out, what was met, what the fluid does.
+// The needs of hosts: forces, impulses, removed bodies, contacts, the fluid's load.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -45,7 +45,7 @@ LoadedBody ellipsoid() {
     return {test::rubber_ellipsoid(), "ellipsoid"};
 }
 
-/// A flight of `count` ellipsoids without gravity.
+/// A simulation of `count` ellipsoids without gravity.
 Simulation floating(const BodyPhysics& physics, int count = 1) {
     Simulation simulation({.gravity = no_gravity});
     simulation.add(ellipsoid(), physics, {.count = count});
@@ -417,7 +417,8 @@ TEST(FluidLoads, HaveASymmetricInertiaAndADampingThatTakesEnergy) {
     EXPECT_GE(damping.eigenvalues().minCoeff(), -1e-12 * damping.eigenvalues().maxCoeff());
 }
 
-/// How far a host that integrates the body itself is from the flight of samara after a second, over the way.
+/// The distance between a body that a host integrates itself and samara's own simulation after a second,
+/// relative to the path.
 double distance_of_host(double step) {
     const auto made = [&] {
         Simulation simulation({.step = step});

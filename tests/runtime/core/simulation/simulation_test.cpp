@@ -1,4 +1,4 @@
-// Simulation, the one class that flies bodies: for scenes, the C interface and C++ alike.
+// Simulation, the one class that simulates bodies: for scenes, the C interface and C++ alike.
 #include "samara/core/simulation/simulation.hpp"
 
 #include <functional>

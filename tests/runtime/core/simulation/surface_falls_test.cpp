@@ -1,6 +1,5 @@
 // Bodies that fall by the loads of their surface, without CFD and without a coefficient of their own, beside
-// falls by full CFD. How near they are in all figures docs/surface-loads.md says; what is held here is that
-// they fall in the same way.
+// falls by full CFD. docs/surface-loads.md has all errors; here they must fall alike.
 
 #include <string>
 

@@ -1,4 +1,4 @@
-// A wind in a flight: the same whatever is asked for, saved and restored.
+// A wind in a simulation: the same whatever is asked for, saved and restored.
 #include <cmath>
 #include <limits>
 #include <string>

@@ -1,9 +1,9 @@
-#include "samara/core/wind/grid_wind.hpp"
-
 #include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>
+
+#include "samara/core/wind/wind_field.hpp"
 
 namespace samara {
 namespace {

@@ -54,9 +54,9 @@ Wind profile(WindProfile::Law law) {
     return wind;
 }
 
-Wind vortex(WindVortex::Core kind) {
+Wind vortex(WindVortex::Core type) {
     Wind wind;
-    wind.vortices.push_back({.kind = kind,
+    wind.vortices.push_back({.type = type,
                              .position = Vector3d(0.3, -0.2, 0.1),
                              .axis = Vector3d(1.0, 2.0, -2.0) / 3.0,
                              .circulation = 2.5,
@@ -199,18 +199,18 @@ TEST(WindProfile, IsItsLaw) {
 }
 
 TEST(WindVortex, HasItsCirculationAndItsCore) {
-    for (const auto kind : {WindVortex::Core::lamb_oseen, WindVortex::Core::rankine}) {
+    for (const auto type : {WindVortex::Core::lamb_oseen, WindVortex::Core::rankine}) {
         Wind wind;
-        wind.vortices.push_back({.kind = kind, .circulation = 2.5, .core = 0.4});
+        wind.vortices.push_back({.type = type, .circulation = 2.5, .core = 0.4});
         const WindField field = field_of(wind);
         // Far away it is a line; counter-clockwise about the axis.
         EXPECT_NEAR(there(field, Vector3d(5.0, 0.0, 3.0)).velocity.y(), 2.5 / (2.0 * pi * 5.0), 1e-13);
-        // In the middle it turns as a solid.
+        // In the middle it rotates as a solid.
         const There middle = there(field, Vector3d::Zero());
         EXPECT_EQ(middle.velocity.norm(), 0.0);
         EXPECT_NEAR(middle.gradient(1, 0), 2.5 / (2.0 * pi * 0.16), 1e-12);
         EXPECT_NEAR(middle.gradient(0, 1), -2.5 / (2.0 * pi * 0.16), 1e-12);
-        // Outside the core nothing turns.
+        // Outside the core nothing rotates.
         const Matrix3d outside = there(field, Vector3d(4.0, 1.0, 0.0)).gradient;
         EXPECT_NEAR(outside(1, 0), outside(0, 1), 1e-13);
     }

@@ -58,9 +58,9 @@ ImmersedBody noisy_ellipsoid(Turbulence turbulence, Langevin langevin = Langevin
     return body;
 }
 
-Wind vortex(double circulation, double core, WindVortex::Core kind = WindVortex::Core::rankine) {
+Wind vortex(double circulation, double core, WindVortex::Core type = WindVortex::Core::rankine) {
     Wind wind;
-    wind.vortices.push_back({.kind = kind, .circulation = circulation, .core = core});
+    wind.vortices.push_back({.type = type, .circulation = circulation, .core = core});
     return wind;
 }
 
@@ -111,7 +111,7 @@ TEST(WindMotion, AUniformWindThatSwingsMovesABodyAsTheSameGust) {
 }
 
 TEST(WindMotion, IsTheSameSeenFromAFrameThatMoves) {
-    // What drifts with a current, seen from it, is what stands still.
+    // A wind that drifts with a current is, in the frame of the current, a wind that stands still.
     const Vector3d current(0.7, -0.4, 0.2);
     Wind standing = vortex(0.5, 0.3, WindVortex::Core::lamb_oseen);
     standing.gusts = WindGusts{.rms = 0.2, .length = 0.5};
@@ -151,7 +151,7 @@ TEST(WindMotion, ANeutralBodyGoesRoundWithAVortexAHeavyOneOutwardsALightOneInwar
 }
 
 TEST(WindMotion, ABodyTakesUpTheTurningOfTheAir) {
-    // In the core the air turns as a solid, with G/(2 pi core^2).
+    // In the core the air rotates as a solid, with G/(2 pi core^2).
     const double circulation = 0.05;
     const Surroundings round = in(vortex(circulation, 0.1), Vector3d::Zero());
     const BodyState spun = flown(sphere(Fluid{}.density, Loads::coefficients), round, BodyState{}, 20'000);
@@ -161,7 +161,8 @@ TEST(WindMotion, ABodyTakesUpTheTurningOfTheAir) {
 }
 
 TEST(WindMotion, WhatFallsThroughShearRunsAheadOfTheWindBelow) {
-    // (m + m_a) s V = drag of the slip w: w = (m + m_a) s V^2/((m - rho V) g), while w is much less than V.
+    // (m + m_a) s V = drag of the relative velocity w: w = (m + m_a) s V^2/((m - rho V) g), while w is much
+    // less than V.
     static const double shear = 0.2;
     Wind wind;
     wind.function = [](void*, double, std::size_t count, const double* places, double* velocities) {

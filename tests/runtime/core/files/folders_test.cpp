@@ -1,4 +1,4 @@
-#include "samara/core/files/share_folder.hpp"
+#include "samara/core/files/folders.hpp"
 
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-#include "samara/core/c_interface/bodies.hpp"
+#include "samara/core/c_interface/objects.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -26,6 +26,10 @@ Matrix6d nearest_semidefinite(const Matrix6d& symmetric) {
     if (solver.eigenvalues().minCoeff() >= 0.0) return symmetric;
     return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
            solver.eigenvectors().transpose();
+}
+
+Quaterniond rotation_between(const Vector3d& from, const Vector3d& to) {
+    return Quaterniond::FromTwoVectors(from, to);
 }
 
 }  // namespace samara

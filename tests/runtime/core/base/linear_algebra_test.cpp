@@ -1,6 +1,6 @@
 // Eigenvalues of symmetric matrices.
 
-#include "samara/core/base/symmetric_matrix.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "samara/core/base/labelled.hpp"
+#include "samara/core/base/error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "samara/core/files/file_digest.hpp"
+#include "samara/core/files/content_hash.hpp"
 
 #include <H5Cpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
 #include "samara/core/files/replace_file.hpp"

@@ -1,10 +1,12 @@
-#include "samara/core/files/temporary_folder.hpp"
+#include "samara/core/files/folders.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -15,12 +17,15 @@
 #include "samara/core/base/error.hpp"
 
 namespace samara {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr const char* prefix = "samara-tmp-";
 
-/// Opens and locks a folder of one's own; -1 where it is gone, or where another holds the lock and is not
-/// waited for.
+/// Opens and locks a folder of the user's own; -1 where it is gone, or where another process holds the lock
+/// and `wait` is false.
 int locked(const std::filesystem::path& folder, bool wait) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0) return -1;
@@ -46,6 +51,17 @@ void remove_those_of_the_dead(const std::filesystem::path& parent) {
     }
 }
 
+/// Returns the folder of the library that this code is part of, such as a Python module's; empty where that
+/// is the program itself.
+fs::path library_folder(const fs::path& program) {
+    Dl_info info = {};
+    const bool known = dladdr(reinterpret_cast<const void*>(&find_share_folder), &info) != 0;
+    const fs::path file = known && info.dli_fname != nullptr ? info.dli_fname : "";
+    std::error_code unknown;
+    const bool is_library = file.is_absolute() && !fs::equivalent(file, program, unknown);
+    return is_library ? file.parent_path() : fs::path();
+}
+
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
@@ -56,8 +72,8 @@ TemporaryFolder::TemporaryFolder() {
             fmt::format("TMPDIR: is no folder ({}); set it to one that can be written", unknown.message()));
     }
     remove_those_of_the_dead(parent);
-    // Another may take the new folder for one of the dead before it is locked; some file systems lock
-    // nothing.
+    // Another process may take the new folder for an abandoned one before it is locked; some file systems
+    // lock nothing.
     for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {
         if (attempt > 0) std::filesystem::remove(path_, unknown);
         std::string pattern = (parent / prefix).string() + "XXXXXX";
@@ -75,6 +91,30 @@ TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
     if (lock_ >= 0) ::close(lock_);
+}
+
+fs::path find_share_folder(const ShareFolder& share) {
+    std::error_code unknown;
+    const auto is_one = [&](const fs::path& folder) {
+        return fs::is_directory(folder, unknown) && fs::exists(folder / share.mark, unknown);
+    };
+    const char* chosen = std::getenv(share.variable);
+    if (chosen != nullptr && *chosen != '\0') {
+        if (is_one(chosen)) return chosen;
+        const bool is_folder = fs::is_directory(chosen, unknown);
+        throw Error(fmt::format("{} names {}, which {}{}; unset it, or name the folder of {}", share.variable,
+                                chosen, is_folder ? "holds no " : "is no folder", is_folder ? share.mark : "",
+                                share.contents));
+    }
+    const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+    const fs::path installed = program.parent_path().parent_path() / "share/samara" / share.name;
+    if (is_one(installed)) return installed;
+    const fs::path library = library_folder(program);
+    if (!library.empty() && is_one(library / share.name)) return library / share.name;
+    if (is_one(share.source)) return share.source;
+    throw Error(
+        fmt::format("{}: {} are not installed there; install samara again, or name their folder in {}",
+                    installed.string(), share.contents, share.variable));
 }
 
 }  // namespace samara
