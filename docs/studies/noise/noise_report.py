@@ -65,7 +65,7 @@ CASES = {
     "disc-20": ("disc", (EDGE[2], 0, EDGE[0])),
     "ellipsoid-middle": ("ellipsoid", (0, 1, 0)),
 }
-# What the form and the constants of a fluctuating wake (runtime/core/kernel/step_constants.hpp) are from; the others were held out.
+# The cases by which the fluctuating wake (runtime/core/kernel/step_constants.hpp) was fitted; the others were held out.
 FITTED = tuple(name for name in CASES if name not in ("cube-0", "cube-45", "disc-20", "ellipsoid-middle"))
 # Solved with the wake's cells twice as wide, too.
 COARSER = ("sphere", "disc-45", "ellipsoid-45")

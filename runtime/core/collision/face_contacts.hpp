@@ -6,7 +6,7 @@
 namespace samara {
 
 /// The velocity of the surface of an obstacle, in its own axes.
-struct SurfaceMotion {
+struct ContactSurfaceVelocity {
     Vector3d angular_velocity = Vector3d::Zero();  ///< rad/s
     Vector3d linear_velocity = Vector3d::Zero();   ///< m/s: of its origin
 
@@ -21,7 +21,7 @@ class FaceContacts {
   public:
     /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; `obstacle`: its number. Points are added
     /// to `near`.
-    FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const SurfaceMotion& surface,
+    FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const ContactSurfaceVelocity& surface,
                  double time_step, double margin, double friction, int obstacle, ContactSet& near) noexcept;
 
     /// Adds the points where the body may touch a face: its corners, and its lowest round point, that come to
@@ -39,7 +39,7 @@ class FaceContacts {
     PlacedHull hull_;
     PlacedHull next_;  ///< the place after the step at the present velocity, as the obstacle sees it
     Vector6d velocity_;
-    SurfaceMotion surface_;
+    ContactSurfaceVelocity surface_;
     double time_step_, margin_, friction_;
     int obstacle_;
     ContactSet& near_;

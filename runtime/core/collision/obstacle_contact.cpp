@@ -191,7 +191,7 @@ void add_obstacles(const ObstacleSet& obstacles, const ContactPoints& points, co
         const Obstacle& obstacle = faces.obstacle();
         const ObstaclePlace now = place_of(obstacle, time);
         const ObstaclePlace next = place_of(obstacle, time + time_step);
-        SurfaceMotion surface;
+        ContactSurfaceVelocity surface;
         if (obstacle.moves()) {
             const Quaterniond to_obstacle = now.orientation.conjugate();
             surface.angular_velocity =

@@ -108,7 +108,7 @@ void expect_equal(const Body& a, const Body& b) {
     }
 }
 
-std::string reading_error(const std::filesystem::path& file) {
+std::string error_of_file(const std::filesystem::path& file) {
     return error_of([&] { (void)read_body_file(file); });
 }
 
@@ -189,7 +189,7 @@ TEST(BodyFile, RefusesAMassThatContradictsTheShapeOrItself) {
                                       .inertia = Matrix3d(Vector3d(3.0, 4.0, 5.0).asDiagonal())};
         spoil(*body.mass);
         write_body_file(folder / "a.body.h5", body);
-        EXPECT_THAT(reading_error(folder / "a.body.h5"), AllOf(HasSubstr("a.body.h5"), HasSubstr(words)));
+        EXPECT_THAT(error_of_file(folder / "a.body.h5"), AllOf(HasSubstr("a.body.h5"), HasSubstr(words)));
     }
 }
 
@@ -205,7 +205,7 @@ TEST(BodyFile, RewritingGivesEqualBytes) {
 }
 
 TEST(BodyFile, MissingFileIsNamed) {
-    EXPECT_THAT(reading_error("nowhere/a.body.h5"), HasSubstr("nowhere/a.body.h5: there is no such file"));
+    EXPECT_THAT(error_of_file("nowhere/a.body.h5"), HasSubstr("nowhere/a.body.h5: there is no such file"));
 }
 
 TEST(BodyFile, FileCutShortIsRefusedAtEveryLength) {
@@ -215,7 +215,7 @@ TEST(BodyFile, FileCutShortIsRefusedAtEveryLength) {
     for (std::size_t tenths = 0; tenths < 10; ++tenths) {
         replace_file_with(folder / "cut.body.h5",
                           std::string_view(bytes).substr(0, tenths * bytes.size() / 10));
-        EXPECT_THAT(reading_error(folder / "cut.body.h5"), HasSubstr("cut.body.h5"));
+        EXPECT_THAT(error_of_file(folder / "cut.body.h5"), HasSubstr("cut.body.h5"));
     }
 }
 
@@ -225,7 +225,7 @@ TEST(BodyFile, RandomBytesAreRefused) {
     std::string bytes(5000, '\0');
     for (char& byte : bytes) byte = static_cast<char>(generator() & 0xffU);
     replace_file_with(folder / "a.body.h5", bytes);
-    EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("is not an HDF5 file"));
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"), HasSubstr("is not an HDF5 file"));
 }
 
 TEST(BodyFile, ForeignHdf5IsRefused) {
@@ -233,7 +233,7 @@ TEST(BodyFile, ForeignHdf5IsRefused) {
     write_hdf5(folder / "a.body.h5", [](Hdf5Writer& file) {
         file.write("/density", std::vector<double>{1.0}, {1}, "kg/m^3", "of something");
     });
-    EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("not a body file"));
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"), HasSubstr("not a body file"));
 }
 
 /// Reads 400 copies of a body file with one bit flipped in each. Returns whether every one was rejected by
@@ -276,7 +276,7 @@ TEST(BodyFile, NewerFormatAsksForAnUpdate) {
         file.attribute("/surface", "source", std::string_view("x"));
         file.attribute("/moments", "volume", 1.0);
     });
-    EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("newer version"));
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"), HasSubstr("newer version"));
 }
 
 TEST(BodyFile, TriangleBeyondTheVerticesIsNamed) {
@@ -284,10 +284,10 @@ TEST(BodyFile, TriangleBeyondTheVerticesIsNamed) {
     Body body = test::full_body();
     body.surface.corners[3][1] = static_cast<std::int32_t>(body.surface.vertices.size());
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
     body.surface.corners[3][1] = -1;
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"), HasSubstr("/surface/corners row 3"));
 }
 
 TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
@@ -295,7 +295,7 @@ TEST(BodyFile, ValuesThatAreNotFiniteAreNamed) {
     Body body = test::full_body();
     body.tables->entries[4].force.x() = std::nan("");
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "a.body.h5"), HasSubstr("/tables/force"));
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"), HasSubstr("/tables/force"));
 }
 
 TEST(BodyFile, SurfaceLoadsThatAreNoneAreNamedWithTheirRemedy) {
@@ -303,20 +303,20 @@ TEST(BodyFile, SurfaceLoadsThatAreNoneAreNamedWithTheirRemedy) {
     Body body = test::full_body();
     body.surface_loads->potentials[3].y() = 5e5;
     write_body_file(folder / "a.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "a.body.h5"),
+    EXPECT_THAT(error_of_file(folder / "a.body.h5"),
                 AllOf(HasSubstr("/surface_loads holds a length of 500000 L"), HasSubstr("samara kirchhoff")));
     body = test::full_body();
     body.surface_loads->potentials[1].x() = std::numeric_limits<double>::quiet_NaN();
     write_body_file(folder / "b.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "b.body.h5"), HasSubstr("/surface_loads/potentials"));
+    EXPECT_THAT(error_of_file(folder / "b.body.h5"), HasSubstr("/surface_loads/potentials"));
     body = test::full_body();
     body.surface_loads->potentials.pop_back();
     write_body_file(folder / "c.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "c.body.h5"), HasSubstr("/surface_loads/potentials"));
+    EXPECT_THAT(error_of_file(folder / "c.body.h5"), HasSubstr("/surface_loads/potentials"));
     body = test::full_body();
     body.surface_loads->surface.corners[2][1] = 1000;
     write_body_file(folder / "d.body.h5", body);
-    EXPECT_THAT(reading_error(folder / "d.body.h5"), HasSubstr("/surface_loads/corners row 2"));
+    EXPECT_THAT(error_of_file(folder / "d.body.h5"), HasSubstr("/surface_loads/corners row 2"));
 }
 
 TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
@@ -326,7 +326,7 @@ TEST(BodyFile, DynamicCoefficientsThatAreNoneAreNamed) {
         Body body = test::full_body();
         spoil(*body.dynamic);
         write_body_file(folder / "a.body.h5", body);
-        const std::string error = reading_error(folder / "a.body.h5");
+        const std::string error = error_of_file(folder / "a.body.h5");
         EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5"), HasSubstr("/dynamic_coefficients/" + what)));
         EXPECT_EQ(error.find('\n'), std::string::npos);
     };
@@ -372,7 +372,7 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
                 .write(H5::PredType::NATIVE_DOUBLE, &value);
         }
     }
-    const std::string error = reading_error(folder / "a.body.h5");
+    const std::string error = error_of_file(folder / "a.body.h5");
     EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
                              HasSubstr("remove the group to use the defaults")));
     EXPECT_EQ(error.find('\n'), std::string::npos);
@@ -397,7 +397,7 @@ TEST(BodyFile, DynamicCoefficientsWithTermsOfBeforeAreRefusedButWhereTheyAreNone
         if (value == 0.0) {
             expect_equal(read_body_file(path), body);
         } else {
-            EXPECT_THAT(reading_error(path),
+            EXPECT_THAT(error_of_file(path),
                         AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
                               HasSubstr("bake the body again")));
         }

@@ -49,17 +49,17 @@ TEST(CWind, MovesTheBodiesAsTheFlightsOwnFunction) {
     SimulationSettings settings;
     settings.wind.function = whirl;
     settings.wind.function_context = &strength;
-    Simulation simulation(settings);
+    Simulation core(settings);
     BodyPhysics physics;
     physics.mass.density = 1200.0;
     Release release{.orientation = Quaterniond(0.8, 0.0, -0.6, 0.0),
                     .count = 40,
                     .spread_position = Vector3d(0.1, 0.0, 0.0),
                     .spread_angle = 1.0};
-    simulation.add(load_body_file(body.file()), physics, release);
-    simulation.advance_to(0.5);
+    core.add(load_body_file(body.file()), physics, release);
+    core.advance_to(0.5);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-        EXPECT_EQ(Vector3d(poses[i].velocity), simulation.pose(i).velocity);
+        EXPECT_EQ(Vector3d(poses[i].velocity), core.pose(i).velocity);
     }
     EXPECT_FALSE(same_bytes(poses, poses_at(simulation_of(body, rubber_group(40)), 0.5)));
 }

@@ -25,7 +25,7 @@ class FileDigest : public testing::Test {
         });
         bytes_ = read_bytes(file_);
     }
-    [[nodiscard]] std::string error_of(const std::string& bytes) const {
+    [[nodiscard]] std::string error_of_bytes(const std::string& bytes) const {
         replace_file_with(folder_ / "b.h5", bytes);
         return error_of([&] { const Hdf5Reader reader(folder_ / "b.h5"); });
     }
@@ -50,7 +50,8 @@ TEST_F(FileDigest, SeesWhatFletcher32DoesNot) {
               0);
     std::string damaged = bytes_;
     damaged[place] = damaged[place + 1] = '\xff';
-    EXPECT_THAT(error_of(damaged), HasSubstr("b.h5: is damaged (its digest is not that of its content)"));
+    EXPECT_THAT(error_of_bytes(damaged),
+                HasSubstr("b.h5: is damaged (its digest is not that of its content)"));
     // Without the digest the change passes.
     replace_file_with(folder_ / "c.h5", damaged.substr(0, damaged.size() - 48));
     const Hdf5Reader reader(folder_ / "c.h5");
@@ -62,7 +63,7 @@ TEST_F(FileDigest, EveryFlippedBitIsFound) {
     for (std::size_t place = 0; place < bytes_.size(); place += 7) {
         std::string damaged = bytes_;
         damaged[place] = static_cast<char>(damaged[place] ^ static_cast<char>(1U << (place % 8)));
-        EXPECT_THAT(error_of(damaged), HasSubstr("b.h5")) << place;
+        EXPECT_THAT(error_of_bytes(damaged), HasSubstr("b.h5")) << place;
     }
 }
 
@@ -70,9 +71,9 @@ TEST_F(FileDigest, EveryLengthButThatOfTheContentIsRefused) {
     const std::size_t content = bytes_.size() - 48;
     for (std::size_t cut = 1; cut < 200; ++cut) {
         if (bytes_.size() - cut == content) continue;
-        EXPECT_THAT(error_of(bytes_.substr(0, bytes_.size() - cut)), HasSubstr("b.h5")) << cut;
+        EXPECT_THAT(error_of_bytes(bytes_.substr(0, bytes_.size() - cut)), HasSubstr("b.h5")) << cut;
     }
-    EXPECT_THAT(error_of(bytes_ + std::string(4096, '\0')), HasSubstr("goes on behind its content"));
+    EXPECT_THAT(error_of_bytes(bytes_ + std::string(4096, '\0')), HasSubstr("goes on behind its content"));
 }
 
 TEST_F(FileDigest, IsGoneWhenAnotherProgramChangesTheFile) {
