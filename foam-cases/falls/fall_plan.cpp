@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
@@ -36,25 +36,37 @@ double seconds_per_cell_and_step(Closure closure) {
     return shared * (closure == Closure::laminar ? 3.7e-6 : 5e-6);
 }
 
-// Returns the factor by which an error changes in a step, in the long run, with the fluid's reaction by the
-// scheme `backward` (see FallModel::acceleration_relaxation): the largest root of the characteristic
-// polynomial.
-double error_left(double share, double inertia_ratio) {
+// Returns whether all roots of a polynomial (coefficients from the highest power down) lie within the unit
+// circle, by the criterion of Schur and Cohn.
+bool roots_decay(std::vector<double> polynomial) {
+    while (polynomial.size() > 1) {
+        const double first = polynomial.front();
+        const double last = polynomial.back();
+        if (!(std::abs(last) < std::abs(first))) return false;
+        std::vector<double> reduced(polynomial.size() - 1);
+        for (std::size_t i = 0; i < reduced.size(); ++i) {
+            reduced[i] = first * polynomial[i] - last * polynomial[polynomial.size() - 1 - i];
+        }
+        polynomial = std::move(reduced);
+    }
+    return true;
+}
+
+// Returns whether errors decay from step to step with this share and the scheme `backward` (see
+// FallModel::acceleration_relaxation).
+bool errors_decay(double share, double inertia_ratio) {
     const double reaction = 0.25 * share * inertia_ratio;
-    Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
-    companion.row(0) << 1.0 - share, -9.0 * reaction, 6.0 * reaction, -reaction;
-    companion.bottomLeftCorner<3, 3>().setIdentity();
-    return companion.eigenvalues().cwiseAbs().maxCoeff();
+    return roots_decay({1.0, share - 1.0, 9.0 * reaction, -6.0 * reaction, reaction});
 }
 
 // Returns the largest share, up to one, with which errors decay.
 double largest_stable_share(double inertia_ratio) {
     double stable = 0.0;
     double unstable = 1.0;
-    if (error_left(unstable, inertia_ratio) < 1.0) return unstable;
+    if (errors_decay(unstable, inertia_ratio)) return unstable;
     for (int i = 0; i < 40; ++i) {
         const double middle = 0.5 * (stable + unstable);
-        (error_left(middle, inertia_ratio) < 1.0 ? stable : unstable) = middle;
+        (errors_decay(middle, inertia_ratio) ? stable : unstable) = middle;
     }
     return stable;
 }
