@@ -45,7 +45,7 @@ bool survives(double density, double step, double size) {
                 << size << " N on " << density << " kg/m^3 at " << step << " s";
         }
     } catch (const SimulationError& lost) {
-        EXPECT_EQ(lost.group(), SimulationError::Reason::out_of_range);
+        EXPECT_EQ(lost.reason(), SimulationError::Reason::out_of_range);
         return false;
     }
     return true;

@@ -42,7 +42,7 @@ SimulationError::Reason error_of(const std::function<void()>& work) {
     try {
         work();
     } catch (const SimulationError& error) {
-        return error.group();
+        return error.reason();
     }
     ADD_FAILURE() << "nothing was thrown";
     return {};

@@ -155,7 +155,7 @@ TEST(WindFlight, AWindFunctionThatGivesNoNumberStopsTheFlight) {
         simulation.advance_to(0.5);
         FAIL() << "nothing was thrown";
     } catch (const SimulationError& error) {
-        EXPECT_EQ(error.group(), SimulationError::Reason::out_of_range);
+        EXPECT_EQ(error.reason(), SimulationError::Reason::out_of_range);
         EXPECT_THAT(error.what(), HasSubstr("the wind function gave"));
     }
     EXPECT_THROW(simulation.advance_to(0.6), SimulationError);
