@@ -190,7 +190,7 @@ std::variant<RotatedSample, ArcFit, ScatteredFit> fit_of(const Symmetry& symmetr
 }
 
 Matrix3d rotation_from(const RotatedSample& sample, const Vector3d& direction) {
-    return turn_between(sample.direction, direction).toRotationMatrix();
+    return rotation_between(sample.direction, direction).toRotationMatrix();
 }
 
 LoadEntry rotated(const RotatedSample& sample, const LoadEntry& entry, const Vector3d& direction) {

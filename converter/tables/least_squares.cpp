@@ -21,14 +21,14 @@ constexpr double first_damping = 1e-2;
 constexpr double least_damping = 1e-6;
 constexpr double largest_damping = 1e8;  // beyond it no step lowers the cost
 
-struct Point {
+struct Iterate {
     VectorXd x;
     VectorXd residuals;
     double cost = 0.0;
 };
 
-Point point_at(const LeastSquaresProblem& problem, const VectorXd& x) {
-    Point point{x, problem.residuals(x)};
+Iterate point_at(const LeastSquaresProblem& problem, const VectorXd& x) {
+    Iterate point{x, problem.residuals(x)};
     const double square = problem.scale * problem.scale;
     const VectorXd costs = square * (point.residuals.array().square() / square).log1p();
     point.cost += problem.counts.size() == 0 ? costs.sum() : problem.counts.dot(costs);
@@ -48,7 +48,7 @@ VectorXd weights_of(const LeastSquaresProblem& problem, const VectorXd& residual
     return problem.counts.size() == 0 ? weights : VectorXd(weights.cwiseProduct(problem.counts));
 }
 
-MatrixXd jacobian(const LeastSquaresProblem& problem, const Point& point) {
+MatrixXd jacobian(const LeastSquaresProblem& problem, const Iterate& point) {
     MatrixXd columns(point.residuals.size(), point.x.size());
     parallel_for(
         static_cast<std::size_t>(point.x.size()), 1, problem.threads, [&](std::size_t index, std::size_t) {
@@ -91,7 +91,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
     const auto within = [&](const VectorXd& x) {
         return VectorXd(x.cwiseMax(problem.lower).cwiseMin(problem.upper));
     };
-    Point point = point_at(problem, within(problem.start));
+    Iterate point = point_at(problem, within(problem.start));
     const VectorXd prior = prior_of(problem);
     LeastSquaresSolution solution;
     double damping = first_damping;
@@ -106,7 +106,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem) {
         const auto free = free_parameters(problem, point.x, gradient);
         const double before = point.cost;
         while (damping < largest_damping) {
-            Point next = point_at(problem, within(point.x + damped_step(normal, gradient, damping, free)));
+            Iterate next = point_at(problem, within(point.x + damped_step(normal, gradient, damping, free)));
             if (next.cost < point.cost) {
                 point = std::move(next);
                 damping = std::max(least_damping, 0.25 * damping);
@@ -135,7 +135,7 @@ LeastSquaresSolution lowest_solution(LeastSquaresProblem problem, const std::vec
 }
 
 VectorXd errors_by_expectation(const LeastSquaresProblem& problem, const VectorXd& x) {
-    const Point point = point_at(problem, x);
+    const Iterate point = point_at(problem, x);
     const MatrixXd columns = jacobian(problem, point);
     MatrixXd normal = columns.transpose() * weights_of(problem, point.residuals).asDiagonal() * columns;
     normal.diagonal() += prior_of(problem);

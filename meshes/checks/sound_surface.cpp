@@ -130,7 +130,7 @@ namespace {
 
 constexpr double least_share = 1e-6;  // of the smaller triangle's area
 constexpr double most_slope = 0.1;    // sine of the angle between the triangles
-constexpr double most_distance =
+constexpr double most_seam_distance =
     1e-4;  // relative to the width of the patch: the sides of a sharp wedge do not touch
 
 // Returns twice the signed area of the triangle in the xy-plane, positive for counterclockwise corners.
@@ -200,7 +200,7 @@ std::optional<FlushPatch> flush_patch(const std::array<Vector3d, 3>& a, const st
     const double area = 0.5 * twice_the_area(patch);
     if (patch.size() < 3 || area < 0.5 * least_share * std::min(across.norm(), its.norm()))
         return std::nullopt;
-    const double limit = std::min(tolerance, most_distance * std::sqrt(area));
+    const double limit = std::min(tolerance, most_seam_distance * std::sqrt(area));
     Vector3d middle = Vector3d::Zero();
     for (const Vector3d& corner : patch) {
         if (std::abs(corner.z()) > limit) return std::nullopt;

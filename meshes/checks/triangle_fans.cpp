@@ -12,7 +12,7 @@
 namespace samara {
 namespace {
 
-bool has(const TriangleFans::Triangle& triangle, std::int32_t vertex) {
+bool has_corner(const TriangleFans::Triangle& triangle, std::int32_t vertex) {
     return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
 }
 
@@ -72,7 +72,7 @@ bool TriangleFans::keeps_topology(const std::vector<std::int32_t>& ring,
 bool TriangleFans::keeps_shape(std::size_t v, std::int32_t target, double least_cosine, double least) const {
     for (const std::uint32_t* t = begin_around(v); t != end_around(v); ++t) {
         const Triangle& triangle = triangles[*t];
-        if (has(triangle, target)) continue;
+        if (has_corner(triangle, target)) continue;
         Triangle moved = triangle;
         std::replace(moved.begin(), moved.end(), static_cast<std::int32_t>(v), target);
         const Vector3d before = area_vector_of(triangle);
@@ -96,7 +96,7 @@ void TriangleFans::collapse_into(std::size_t v, std::int32_t target) {
     for (const std::uint32_t* t = begin_around(v); t != end_around(v); ++t) {
         Triangle& triangle = triangles[*t];
         for (const std::int32_t corner : triangle) lock(corner);
-        if (has(triangle, target)) {
+        if (has_corner(triangle, target)) {
             triangle = {-1, -1, -1};
         } else {
             std::replace(triangle.begin(), triangle.end(), static_cast<std::int32_t>(v), target);

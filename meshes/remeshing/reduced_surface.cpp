@@ -19,8 +19,8 @@ namespace {
 
 using Triangle = TriangleFans::Triangle;
 
-constexpr double least_cosine = 0.5;  // between a triangle's normals before and after
-constexpr double least_quality =
+constexpr double least_collapse_cosine = 0.5;  // between a triangle's normals before and after
+constexpr double least_collapse_quality =
     0.15;  // 1: equilateral; or half the least quality before, where that is smaller
 // The squared length of a collapse counts with this weight, so that flat places stay resolved with
 // well-shaped triangles.
@@ -165,14 +165,15 @@ class Reduction {
         if (ring.empty() || fans_.is_hub(v)) return;
         const Sharpness sharpness = sharpness_at(v);
         if (sharpness.edges != 0 && sharpness.edges != 2) return;
-        const double least = std::min(least_quality, 0.5 * fans_.worst_quality(v));
+        const double least = std::min(least_collapse_quality, 0.5 * fans_.worst_quality(v));
         for (const std::int32_t target : ring) {
             // Along the edge only: across the thin rim of a plate the cost would be low.
             if (sharpness.edges == 2 && target != sharpness.ends[0] && target != sharpness.ends[1]) continue;
             const Vector3d& place = fans_.vertex(target);
             const double cost =
                 quadrics_[v].mean(place) + weight_of_length * (place - fans_.vertices[v]).squaredNorm();
-            if (cost >= choices_[v].cost || !fans_.keeps_shape(v, target, least_cosine, least)) continue;
+            if (cost >= choices_[v].cost || !fans_.keeps_shape(v, target, least_collapse_cosine, least))
+                continue;
             fans_.gather_ring(as_index(target), other);
             if (fans_.keeps_topology(ring, other)) choices_[v] = {target, cost};
         }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_points = 5000;
 constexpr double points_over_the_area = 2000.0;
-constexpr double coarsest = 0.05;
+constexpr double coarsest_spacing = 0.05;
 constexpr int subdivisions_of_curved_triangles = 4;
 
 // Estimates how far flat triangles lie within the curved surface that they approximate (m). On a sphere,
@@ -84,12 +84,13 @@ TriangleTree tree_of(const Surface& surface, const Vector3d& centre) {
 }  // namespace
 
 double faceting(const Surface& surface, const Vector3d& centre) {
-    return surface.order() == 1 ? std::min(coarsest, sagitta(surface) / size_of(surface, centre)) : 0.0;
+    return surface.order() == 1 ? std::min(coarsest_spacing, sagitta(surface) / size_of(surface, centre))
+                                : 0.0;
 }
 
 ImageComparison::ImageComparison(const Surface& surface, const Vector3d& centre, double tolerance)
     : size_(size_of(surface, centre)),
-      tolerance_(std::min(coarsest, std::max(tolerance, faceting(surface, centre)))),
+      tolerance_(std::min(coarsest_spacing, std::max(tolerance, faceting(surface, centre)))),
       points_(points_of(surface, centre)),
       tree_(tree_of(surface, centre)) {}
 

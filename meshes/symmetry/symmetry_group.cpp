@@ -128,7 +128,7 @@ Matrix3d frame_about(const Vector3d& axis) {
     axis.cwiseAbs().maxCoeff(&largest);
     const Vector3d along = axis[largest] < 0.0 ? Vector3d(-axis) : axis;
     // The smallest rotation from the shape's axis to there.
-    return turn_between(Vector3d::Unit(largest), along).toRotationMatrix();
+    return rotation_between(Vector3d::Unit(largest), along).toRotationMatrix();
 }
 
 AlignedGroup aligned_group(const std::vector<Matrix3d>& elements) {
@@ -167,7 +167,7 @@ constexpr double first_step = 0.035;
 // tolerances, than one tolerance plus the displacement by an axis that is off by some degrees, or where the
 // mean distance is too large. Relative to the size.
 constexpr double most_tolerances = 6.0;
-constexpr double most_astray = 0.15;
+constexpr double most_distance_from_image = 0.15;
 constexpr double most_astray_in_the_mean = 0.1;
 constexpr double astray_after_coarse_steps = 0.02;
 
@@ -269,7 +269,8 @@ void SymmetryGroup::add_refined(const Operation& operation) {
     const double tolerance = images_.tolerance();
     const double in_the_mean = tolerance + most_astray_in_the_mean;
     if (images_.mean_distance(element, few_points, in_the_mean) > in_the_mean) return;
-    if (!images_.is_symmetry(element, std::min(most_tolerances, 1.0 + most_astray / tolerance), more_points))
+    if (!images_.is_symmetry(element, std::min(most_tolerances, 1.0 + most_distance_from_image / tolerance),
+                             more_points))
         return;
     double best = 0.0;
     const Operation near = refined(operation, images_, few_points, first_step, coarse_halvings, best);

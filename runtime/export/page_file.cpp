@@ -59,7 +59,7 @@ void write_array(std::ostream& stream, const std::string& name, const std::vecto
            << "</script>\n";
 }
 
-void append(std::vector<float>& floats, const auto& values) {
+void append_floats(std::vector<float>& floats, const auto& values) {
     for (const double value : values) floats.push_back(static_cast<float>(value));
 }
 
@@ -79,10 +79,11 @@ std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int ru
     for (int frame = 0; frame < motion.frames(); ++frame) {
         for (int copy = 0; copy < body.copies; ++copy) {
             const Pose& pose = motion.pose(body, run, frame, copy);
-            append(floats, pose.position);
-            append(floats, pose.orientation.normalized().coeffs());  // x, y, z, w
-            append(floats, std::array<double, 3>{pose.velocity.dot(down), inclination(motion, body, pose),
-                                                 pose.angular_velocity.norm()});
+            append_floats(floats, pose.position);
+            append_floats(floats, pose.orientation.normalized().coeffs());  // x, y, z, w
+            append_floats(floats,
+                          std::array<double, 3>{pose.velocity.dot(down), inclination(motion, body, pose),
+                                                pose.angular_velocity.norm()});
         }
     }
     return floats;
@@ -95,8 +96,8 @@ void write_mesh(std::ostream& stream, const std::string& name, const Surface& su
     std::vector<float> points;
     std::vector<float> normals;
     std::vector<std::uint32_t> triangles;
-    for (const Vector3d& position : mesh.positions) append(points, Vector3d(position - origin));
-    for (const Vector3d& normal : mesh.normals) append(normals, normal);
+    for (const Vector3d& position : mesh.positions) append_floats(points, Vector3d(position - origin));
+    for (const Vector3d& normal : mesh.normals) append_floats(normals, normal);
     for (const auto& triangle : mesh.triangles)
         triangles.insert(triangles.end(), triangle.begin(), triangle.end());
     write_array(stream, name + "-points", points);
@@ -109,8 +110,8 @@ std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
     std::vector<float> floats;
     for (const double time : motion.times) {
         const ObstaclePlace place = samara::place_of(obstacle, time);
-        append(floats, place.position);
-        append(floats, place.orientation.coeffs());
+        append_floats(floats, place.position);
+        append_floats(floats, place.orientation.coeffs());
         if (!obstacle.moves()) break;
     }
     return floats;

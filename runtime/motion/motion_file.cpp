@@ -15,7 +15,6 @@
 namespace samara {
 namespace {
 
-constexpr std::int64_t format_version = 1;
 constexpr std::size_t read_bytes_at_once = 64U << 20U;
 
 /// Checks the shape that the file claims before memory for it is taken.
@@ -107,10 +106,11 @@ MotionReader::MotionReader(const std::filesystem::path& path) : file_(std::make_
         throw Error(fmt::format("{}: is an HDF5 file, but not a motion file; make one with 'samara simulate'",
                                 path.string()));
     }
-    if (const auto found = file_->integer_attribute("/", "format_version"); found > format_version) {
+    if (const auto found = file_->integer_attribute("/", "motion_format_version");
+        found > motion_format_version) {
         throw Error(
             fmt::format("{}: was written by a newer version of samara (format {}, this one reads {}); update",
-                        path.string(), found, format_version));
+                        path.string(), found, motion_format_version));
     }
     motion_.times = file_->finite_doubles("/time", {0});
     motion_.frame_rate = file_->number_attribute("/", "frame_rate");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,6 +13,9 @@
 #include "samara/motion/motion.hpp"
 
 namespace samara {
+
+/// The version of the format of motion files.
+inline constexpr std::int64_t motion_format_version = 1;
 
 /// Returns the name of the group of a body's uncertainties in a motion file: below it stands one group for
 /// each cause, which holds a number for each metric.

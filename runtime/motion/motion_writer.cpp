@@ -12,7 +12,6 @@
 namespace samara {
 namespace {
 
-constexpr std::int64_t format_version = 1;
 constexpr std::size_t block_bytes = 64U << 20U;
 constexpr std::size_t rows_in_chunk = (1U << 16U) / 3;
 constexpr std::size_t most_frames = 4096;
@@ -128,7 +127,7 @@ std::uintmax_t expected_size(const Motion& motion) {
 }  // namespace
 
 MotionWriter::MotionWriter(Hdf5Writer& file, const Motion& motion) : file_(file), motion_(motion) {
-    file.attribute("/", "format_version", format_version);
+    file.attribute("/", "motion_format_version", motion_format_version);
     file.attribute("/", "samara_version", std::string_view(version));
     file.attribute("/", "kind", std::string_view("motion"));
     file.attribute("/", "frame_rate", motion.frame_rate);

@@ -45,10 +45,6 @@ bool is_laminar(const LoadTables& tables) {
                        [](const LoadEntry& entry) { return entry.turbulent_kinetic_energy == 0.0; });
 }
 
-bool uses_tables(const ModelSet& models) {
-    return models.loads == Loads::table || models.turbulence == Turbulence::table;
-}
-
 struct Reduction {
     ModelPart part;
     std::string left_out;

@@ -6,7 +6,6 @@
 namespace samara {
 namespace {
 
-constexpr double certain_errors = 2.0;
 constexpr std::size_t fewest_pairs = 8;
 
 using Falls = std::vector<const SampledFall*>;

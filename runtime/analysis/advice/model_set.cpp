@@ -8,10 +8,6 @@
 namespace samara {
 namespace {
 
-bool uses_tables(const ModelSet& models) {
-    return models.loads == Loads::table || models.turbulence == Turbulence::table;
-}
-
 bool uses_identified(const ModelSet& models, const Body& body) {
     return models.loads == Loads::table && models.dynamic == Dynamic::of_body && body.dynamic.has_value();
 }
@@ -49,6 +45,10 @@ std::string turbulence_in_words(const ModelSet& models) {
 }
 
 }  // namespace
+
+bool uses_tables(const ModelSet& models) {
+    return models.loads == Loads::table || models.turbulence == Turbulence::table;
+}
 
 ModelSet model_set_of(const SceneBody& body) {
     return {.loads = body.loads,

@@ -56,6 +56,9 @@ struct ModelCost {
 /// Returns the cost of a set that the body can be simulated with.
 ModelCost cost_of(const ModelSet& models, const Body& body);
 
+/// Returns whether the set takes loads or turbulence from tables.
+bool uses_tables(const ModelSet& models);
+
 /// Returns the set as text, such as "table loads, added mass, default dynamic coefficients, no turbulence".
 std::string in_words(const ModelSet& models, const Body& body);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "samara/analysis/comparison/reference_uncertainty.hpp"
+#include "samara/analysis/metrics/estimate.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/surface.hpp"
@@ -119,7 +120,6 @@ std::vector<std::string> comparison_notes(const FallChoice& motion, const FallCh
     return notes;
 }
 
-constexpr double certain_errors = 2.0;
 constexpr double swings_in_segment = 16.0;
 constexpr double same_gravity = 1e-4;
 constexpr double rounding = 1e-9;

@@ -22,7 +22,7 @@ json describe(const BodyMotion& body, const BodyMeasures& measures) {
     json described = {{"name", body.name},
                       {"copies", body.copies},
                       {"triangles", body.surface.triangle_count()},
-                      {"center_of_mass", as_json(body.center_of_mass)},
+                      {"center_of_mass", samara::as_json(body.center_of_mass)},
                       {"body_hash", body.body_hash},
                       {"models", body.models}};
     for (const MetricUncertainty& one : body.uncertainties) {

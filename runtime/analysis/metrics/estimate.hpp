@@ -15,6 +15,9 @@ struct Estimate {
     std::optional<double> deviation;  ///< standard deviation between falls, where there are several
 };
 
+/// The number of standard errors from which on a difference is called certain.
+inline constexpr double certain_errors = 2.0;
+
 /// Returns the standard error of a statistic of a record in `pieces` pieces, from its values with one stretch
 /// of `left_out` neighbouring pieces left out at a time: the jackknife with overlapping blocks, Kuensch, The
 /// jackknife and the bootstrap for general stationary observations, Annals of Statistics 17, 1989, with the

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -10,6 +12,11 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Returns an index of a container as the signed index that Eigen takes.
+constexpr Eigen::Index eigen_index(std::size_t index) noexcept {
+    return static_cast<Eigen::Index>(index);
+}
 
 /// Returns the matrix of the cross product: skew(a) * b == a x b.
 inline Matrix3d skew(const Vector3d& a) {

@@ -8,14 +8,15 @@
 namespace samara {
 namespace {
 
-constexpr double rounding = 1e-9;  // of a tensor's largest entry
+constexpr double tensor_rounding = 1e-9;  // of a tensor's largest entry
 
 std::string error_of(const Matrix3d& tensor, const char* name, bool is_drag) {
     const std::string is = std::string(name) + " is not ";
     if (!tensor.allFinite()) return is + "finite";
     const double scale = tensor.cwiseAbs().maxCoeff();
-    if ((tensor - tensor.transpose()).cwiseAbs().maxCoeff() > rounding * scale) return is + "symmetric";
-    if (is_drag && eigenvalues_of(tensor).minCoeff() < -rounding * scale) {
+    if ((tensor - tensor.transpose()).cwiseAbs().maxCoeff() > tensor_rounding * scale)
+        return is + "symmetric";
+    if (is_drag && eigenvalues_of(tensor).minCoeff() < -tensor_rounding * scale) {
         return is + "positive semidefinite";
     }
     return {};

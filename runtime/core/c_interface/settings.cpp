@@ -154,7 +154,7 @@ samara_body_group default_group() {
 }
 
 GivenGroup read_group(const samara_body_group& given) {
-    const samara_body_group group = known_part(given, default_group(), first_group_size, "kind");
+    const samara_body_group group = known_part(given, default_group(), first_group_size, "body_group");
     GivenGroup body;
     if (group.name != nullptr) body.name = plain_name(group.name, "name");
     read_start(group, body);

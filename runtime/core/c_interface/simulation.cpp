@@ -74,7 +74,7 @@ samara_status samara_default_settings(samara_settings* settings, size_t size, ch
 
 samara_status samara_default_body_group(samara_body_group* group, size_t size, char* error,
                                         size_t error_size) {
-    return guarded(error, error_size, [&] { fill(group, size, samara::default_group(), "kind"); });
+    return guarded(error, error_size, [&] { fill(group, size, samara::default_group(), "body_group"); });
 }
 
 samara_status samara_simulation_create(const samara_settings* settings, samara_simulation** simulation,
@@ -97,7 +97,7 @@ samara_status samara_simulation_add(samara_simulation* simulation, const samara_
     return guarded(error, error_size, [&] {
         require(simulation, "simulation");
         require(body, "body");
-        require(group, "kind");
+        require(group, "group");
         const samara::GivenGroup given = samara::read_group(*group);
         samara::require_data(*body->loaded.body, given);
         const size_t added = simulation->core.add(body->loaded, given, given, given.name);

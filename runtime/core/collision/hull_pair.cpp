@@ -237,7 +237,7 @@ HullContact hull_contact(const CollisionHull& first, const CollisionHull& second
 namespace {
 
 // Relative to the bounding radius, or its square.
-constexpr double flat = 1e-5;
+constexpr double flat_contact = 1e-5;
 constexpr double smallest_area = 1e-6;
 
 /// The corners on each side of a plane.
@@ -282,7 +282,7 @@ std::vector<HullFace> hull_faces(const ContactPoints& points) {
     };
     const auto look_at = [&](const Vector3d& normal, const Vector3d& place) {
         if (is_known(normal)) return;
-        Sides sides = sides_of(corners, normal, normal.dot(place), flat * radius);
+        Sides sides = sides_of(corners, normal, normal.dot(place), flat_contact * radius);
         if (!sides.all_below) return;
         HullFace face{normal, std::move(sides.within)};
         find_outline(corners, face);

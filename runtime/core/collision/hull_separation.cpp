@@ -9,7 +9,7 @@ namespace {
 
 // The share by which the hull is shrunk towards its middle. The larger it is, the more oblique is the plane
 // beside an edge; the smaller, the less the two may overlap.
-constexpr double drawn_in = 0.03;
+constexpr double triangle_drawn_in = 0.03;
 // relative to the radius: the gap from which another plane is preferred to the face's
 constexpr double better = 1e-6;
 
@@ -29,7 +29,7 @@ bool nearest_to_triangle(const PlacedHull& hull, const ObstacleTriangle& triangl
     const Vector3d middle = hull.position + hull.orientation * hull.points->middle;
     const auto of_hull = [&](const Vector3d& direction) {
         const Vector3d point = hull.farthest(direction);
-        return Vector3d(point + drawn_in * (middle - point));
+        return Vector3d(point + triangle_drawn_in * (middle - point));
     };
     const auto of_triangle = [&](const Vector3d& direction) { return farthest_corner(triangle, direction); };
     separation = middle - triangle.corners[0];

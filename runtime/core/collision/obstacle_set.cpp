@@ -11,9 +11,9 @@
 namespace samara {
 namespace {
 
-// The sine of the angle from which an edge is not flat: meshes of a plane are far flatter, and no mesh of a
-// curve is so fine.
-constexpr double flat = 1e-6;
+// The sine of the angle from which an edge is not flat_edge: meshes of a plane are far flatter, and no mesh
+// of a curve is so fine.
+constexpr double flat_edge = 1e-6;
 
 double radius_of(const Surface& surface) {
     double radius = 0.0;
@@ -63,7 +63,7 @@ void ObstacleFaces::prepare_triangles() {
                 triangle.beyond[i] = surface.vertices[as_index(corner)];
             }
             triangle.stands_out[i] =
-                triangle.normal.cross(area_vector(surface, other).normalized()).norm() > flat;
+                triangle.normal.cross(area_vector(surface, other).normalized()).norm() > flat_edge;
         }
     }
 }

@@ -14,7 +14,7 @@ constexpr double most_rotation = 0.25;  // rad, in a substep
 constexpr double most_passing = 0.5;    // relative displacement of two, over the smaller radius, in a substep
 constexpr double most_fall = 0.005;     // fall from a standstill, relative to the radius, in a substep
 constexpr int most_island_substeps = 64;
-constexpr int most_attempts = 6;            // to find where bodies touch within a substep
+constexpr int most_substep_attempts = 6;    // to find where bodies touch within a substep
 constexpr double kept_energy_share = 0.25;  // share of its kinetic energy that a body which stays keeps
 // in a step, times bodies: substeps that end early, where some collide or would be held back
 constexpr int most_stops = 24;
@@ -24,11 +24,12 @@ constexpr int most_tries = 6;  // of a substep
 constexpr std::size_t most_work = 50000;
 constexpr std::size_t most_work_of_fast = 500;  // where even the most substeps are too few
 constexpr std::size_t work_of_point = 20;       // of an impulse at a point, relative to a check of two hulls
-constexpr int most_rounds = 60;                 // in which bodies are separated
+constexpr int most_separation_rounds = 60;      // in which bodies are separated
 // displacement in a step, relative to the radius, that counts as none
 constexpr double resting_displacement = 2e-4;
 constexpr double no_motion = 2e-5;  // the same, which is undone for a body at rest
-constexpr double still = 1e-2;  // speed that counts as none, relative to the change in a step without contact
+constexpr double still_in_island =
+    1e-2;  // speed that counts as none, relative to the change in a step without contact
 constexpr double ground_touching = 1e-5;  // gap to the ground that counts as none, relative to the radius
 constexpr std::size_t most_ground_points = 12;
 
@@ -358,7 +359,7 @@ void IslandStep::settle(double time_step) {
         const double left = energy_of(i, island_body.begin, movers_[i].velocity);
         island_body.rests =
             !movers_[i].overlaps && begun < resting_energy * movers_[i].load.norm() * radius &&
-            left < still * still * energy_of(i, island_body.begin, change) &&
+            left < still_in_island * still_in_island * energy_of(i, island_body.begin, change) &&
             time_step * speed_of_points(movers_[i].velocity, radius) < resting_displacement * radius;
         if (island_body.record != nullptr && movers_[i].record.strongest > 0.0)
             island_body.record->add(movers_[i].record);
@@ -393,7 +394,7 @@ void IslandStep::try_substep(std::span<const Pair> pairs, const IslandGround& gr
     if (is_spent()) points_.clear();  // bodies that may touch are held back
     find_ground(ground, time, substep);
     std::size_t known = 0;
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < most_substep_attempts; ++attempt) {
         solve_impulses(substep, known);
         known = points_.size();
         work_ += work_of_point * known;
@@ -404,7 +405,7 @@ void IslandStep::try_substep(std::span<const Pair> pairs, const IslandGround& gr
 
 void IslandStep::separate_all(const IslandGround& ground, double time, double substep) {
     bool moved = true;
-    for (int round = 0; round < most_rounds && moved && (round == 0 || !is_spent()); ++round) {
+    for (int round = 0; round < most_separation_rounds && moved && (round == 0 || !is_spent()); ++round) {
         moved = false;
         separate_pairs(substep, round, moved);
         separate_from_ground(ground, time, substep, moved);

@@ -11,7 +11,8 @@ namespace samara {
 namespace {
 
 // Chosen by trial, so that the tests Encounters and BroadphaseStability pass.
-constexpr double finest_share = 1e-3;  // precision of the place where two touch, relative to their path
+constexpr double finest_passage_share =
+    1e-3;  // precision of the place where two touch, relative to their path
 // displacement of two in a substep, relative to the radius, from which they collide where their paths do
 constexpr double fast_travel = 0.02;
 // relative to the skin: the distance to which bodies that come too close are separated
@@ -136,7 +137,7 @@ double IslandStep::free_share(const Near& near) const {
     Vector3d normal = near.normal;
     double share = 0.0;
     double piece = 1.0;
-    while (share < 1.0 && piece >= finest_share) {
+    while (share < 1.0 && piece >= finest_passage_share) {
         ++work_;
         const double next_share = std::min(1.0, share + piece);
         const auto [next_first, next_second] = hulls(next_share);

@@ -38,7 +38,7 @@ int locked(const std::filesystem::path& folder, bool wait) {
     return -1;
 }
 
-void remove_those_of_the_dead(const std::filesystem::path& parent) {
+void remove_folders_of_dead_processes(const std::filesystem::path& parent) {
     std::error_code failure;
     for (std::filesystem::directory_iterator entry(parent, failure), end; !failure && entry != end;
          entry.increment(failure)) {
@@ -71,7 +71,7 @@ TemporaryFolder::TemporaryFolder() {
         throw Error(
             fmt::format("TMPDIR: is no folder ({}); set it to one that can be written", unknown.message()));
     }
-    remove_those_of_the_dead(parent);
+    remove_folders_of_dead_processes(parent);
     // Another process may take the new folder for an abandoned one before it is locked; some file systems
     // lock nothing.
     for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {

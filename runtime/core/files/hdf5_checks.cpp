@@ -179,4 +179,11 @@ std::string error_of_text(const H5::Attribute& attribute, std::uint64_t most_byt
     return type.getSize() <= most_bytes ? "" : "is longer than the file";
 }
 
+H5::DataSpace selected_block(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
+                             const std::vector<hsize_t>& shape) {
+    H5::DataSpace space = dataset.getSpace();
+    space.selectHyperslab(H5S_SELECT_SET, shape.data(), offset.data());
+    return space;
+}
+
 }  // namespace samara

@@ -44,4 +44,8 @@ std::string error_of_chunks(const H5::DataSet& dataset);
 std::string error_of_number(const H5::Attribute& attribute, bool integer);
 std::string error_of_text(const H5::Attribute& attribute, std::uint64_t most_bytes);
 
+/// Returns the space of a dataset with the block of `shape` at `offset` selected.
+H5::DataSpace selected_block(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
+                             const std::vector<hsize_t>& shape);
+
 }  // namespace samara

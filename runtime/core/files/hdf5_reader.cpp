@@ -52,14 +52,6 @@ H5::H5File open_for_reading(const InputFile& input) {
     }
 }
 
-/// Returns the part of a dataset's space at `offset`. space at `offset`.
-H5::DataSpace part_of(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
-                      const std::vector<hsize_t>& shape) {
-    H5::DataSpace space = dataset.getSpace();
-    space.selectHyperslab(H5S_SELECT_SET, shape.data(), offset.data());
-    return space;
-}
-
 constexpr const char* damaged = "is damaged (its checksum is wrong or it was cut short)";
 
 }  // namespace
@@ -202,7 +194,7 @@ std::vector<double> Hdf5Reader::finite_block(const std::string& name, const std:
                                              const std::vector<hsize_t>& shape) const {
     const H5::DataSet dataset = open(name, std::vector<hsize_t>(shape.size(), 0));
     const H5::DataSpace memory(static_cast<int>(shape.size()), shape.data());
-    return values<double>(name, dataset, memory, part_of(dataset, offset, shape));
+    return values<double>(name, dataset, memory, selected_block(dataset, offset, shape));
 }
 
 std::vector<std::int32_t> Hdf5Reader::integers(const std::string& name,

@@ -12,6 +12,7 @@
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
+#include "samara/core/files/hdf5_checks.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/replace_file.hpp"
 
@@ -89,14 +90,6 @@ std::vector<hsize_t> usual_chunk(const std::vector<hsize_t>& dimensions) {
     return chunk;
 }
 
-/// Returns the part of a dataset's space at `offset`. space at `offset`.
-H5::DataSpace part_of(const H5::DataSet& dataset, const std::vector<hsize_t>& offset,
-                      const std::vector<hsize_t>& shape) {
-    H5::DataSpace space = dataset.getSpace();
-    space.selectHyperslab(H5S_SELECT_SET, shape.data(), offset.data());
-    return space;
-}
-
 }  // namespace
 
 H5::DataSet Hdf5Writer::dataset(const std::string& name, const H5::DataType& type,
@@ -149,7 +142,8 @@ void Hdf5Writer::write_block(const std::string& name, const std::vector<double>&
                              const std::vector<hsize_t>& offset, const std::vector<hsize_t>& shape) {
     const H5::DataSet target = file_.openDataSet(name);
     const H5::DataSpace memory(static_cast<int>(shape.size()), shape.data());
-    write_values(target, values.data(), H5::PredType::NATIVE_DOUBLE, memory, part_of(target, offset, shape));
+    write_values(target, values.data(), H5::PredType::NATIVE_DOUBLE, memory,
+                 selected_block(target, offset, shape));
 }
 
 void Hdf5Writer::write_values(const H5::DataSet& dataset, const void* values, const H5::DataType& type,

@@ -41,7 +41,7 @@ std::string prefix_of_names() {
 }
 
 /// Removes the temporary files of processes that were killed: ".samara.PLACE.PROCESS.NUMBER.tmp".
-void remove_those_of_the_dead(const std::filesystem::path& folder) {
+void remove_files_of_dead_processes(const std::filesystem::path& folder) {
     const std::string prefix = prefix_of_names();
     std::error_code failure;
     for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
@@ -60,7 +60,7 @@ class TemporaryFile {
     TemporaryFile(const std::filesystem::path& target, bool named)
         : target_(target), folder_(target.has_parent_path() ? target.parent_path() : ".") {
         if (!named && open_without_name()) return;
-        remove_those_of_the_dead(folder_);
+        remove_files_of_dead_processes(folder_);
         take_name();
         descriptor_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor_ < 0) throw cannot_be_written(target);

@@ -18,10 +18,6 @@ namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-const Vector3d& vertex(const Surface& surface, std::int32_t index) {
-    return surface.vertices[as_index(index)];
-}
-
 bool is_collapsed(const Triangle& triangle) {
     return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
 }

@@ -24,6 +24,11 @@ struct Surface {
     [[nodiscard]] std::size_t triangle_count() const { return corners.size(); }
 };
 
+/// Returns a vertex (m) by an index that the surface stores.
+inline const Vector3d& vertex(const Surface& surface, std::int32_t index) {
+    return surface.vertices[static_cast<std::size_t>(index)];
+}
+
 /// Returns half the cross product of two edges: its length is the flat triangle's area (m^2), its direction
 /// the outward normal.
 Vector3d area_vector(const Surface& surface, std::size_t triangle);

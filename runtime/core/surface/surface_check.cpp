@@ -18,10 +18,6 @@ namespace {
 // The height, relative to its longest side, below which a face has no area to rely on: its normal is unknown.
 constexpr double flattest_face = 1e-7;
 
-const Vector3d& vertex(const Surface& surface, std::int32_t index) {
-    return surface.vertices[as_index(index)];
-}
-
 std::string count_of(std::size_t count, const char* one, const char* many) {
     return count == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", count, many);
 }

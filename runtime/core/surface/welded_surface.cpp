@@ -18,10 +18,6 @@ namespace {
 constexpr double largest_coordinate = 1e12;
 constexpr double smallest_extent = 1e-12;
 
-const Vector3d& vertex(const Surface& surface, std::int32_t index) {
-    return surface.vertices[as_index(index)];
-}
-
 // Vertices by the cell of a grid, to find those nearby.
 class VertexGrid {
   public:

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::size_t rows_a_piece = 16;
 
-Eigen::Index at(std::size_t index) {
-    return static_cast<Eigen::Index>(index);
-}
-
 /// A triangle and which of its corners a node is.
 struct Corner {
     std::size_t triangle;
@@ -37,21 +33,23 @@ std::vector<std::vector<Corner>> corners_of_nodes(const LinearElements& elements
 /// Returns W p = sum over triangles of curl v_i . V curl p for six columns, V compressed.
 SixColumns hypersingular_times(const LinearElements& elements, const CompressedMatrix& single_layer,
                                const SixColumns& columns, int threads) {
-    CurlColumns curls(at(elements.triangle_count()), 18);
+    CurlColumns curls(eigen_index(elements.triangle_count()), 18);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
         Eigen::Matrix<double, 3, 6> sum = Eigen::Matrix<double, 3, 6>::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
-            sum += elements.curl(t, k) * columns.row(at(elements.node(t, k)));
+            sum += elements.curl(t, k) * columns.row(eigen_index(elements.node(t, k)));
         }
-        for (Eigen::Index c = 0; c < 18; ++c) curls(at(t), c) = static_cast<float>(sum(c / 6, c % 6));
+        for (Eigen::Index c = 0; c < 18; ++c)
+            curls(eigen_index(t), c) = static_cast<float>(sum(c / 6, c % 6));
     }
     const CurlColumns products = single_layer.times(curls, threads);
-    SixColumns result = SixColumns::Zero(at(elements.node_count()), 6);
+    SixColumns result = SixColumns::Zero(eigen_index(elements.node_count()), 6);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
         Eigen::Matrix<double, 3, 6> product;
-        for (Eigen::Index c = 0; c < 18; ++c) product(c / 6, c % 6) = static_cast<double>(products(at(t), c));
+        for (Eigen::Index c = 0; c < 18; ++c)
+            product(c / 6, c % 6) = static_cast<double>(products(eigen_index(t), c));
         for (std::size_t k = 0; k < 3; ++k) {
-            result.row(at(elements.node(t, k))) += elements.curl(t, k).transpose() * product;
+            result.row(eigen_index(elements.node(t, k))) += elements.curl(t, k).transpose() * product;
         }
     }
     return result;
@@ -66,9 +64,9 @@ constexpr const char* unsolvable =
 
 /// Returns the normals, a row each triangle.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elements) {
-    Eigen::Matrix<double, Eigen::Dynamic, 3> normals(at(elements.triangle_count()), 3);
+    Eigen::Matrix<double, Eigen::Dynamic, 3> normals(eigen_index(elements.triangle_count()), 3);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
-        normals.row(at(t)) = elements.triangles[t].normal.transpose();
+        normals.row(eigen_index(t)) = elements.triangles[t].normal.transpose();
     }
     return normals;
 }
@@ -76,20 +74,20 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elemen
 /// Returns <n_k, v_i>, a row each node.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normal_loads(const LinearElements& elements) {
     Eigen::Matrix<double, Eigen::Dynamic, 3> loads =
-        Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(at(elements.node_count()), 3);
+        Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(eigen_index(elements.node_count()), 3);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
         const FlatTriangle& triangle = elements.triangles[t];
         for (std::size_t k = 0; k < 3; ++k) {
-            loads.row(at(elements.node(t, k))) += triangle.area / 3.0 * triangle.normal.transpose();
+            loads.row(eigen_index(elements.node(t, k))) += triangle.area / 3.0 * triangle.normal.transpose();
         }
     }
     return loads;
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates_of(const LinearElements& elements) {
-    Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates(at(elements.node_count()), 3);
+    Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates(eigen_index(elements.node_count()), 3);
     for (std::size_t i = 0; i < elements.node_count(); ++i) {
-        coordinates.row(at(i)) = elements.nodes[i].transpose();
+        coordinates.row(eigen_index(i)) = elements.nodes[i].transpose();
     }
     return coordinates;
 }
@@ -111,7 +109,8 @@ void regularise(const LinearElements& elements, RowMatrix& hypersingular) {
     for (std::size_t i = 0; i < elements.node_count(); ++i) {
         for (std::size_t j = 0; j < elements.node_count(); ++j) {
             if (elements.component[i] != elements.component[j]) continue;
-            hypersingular(at(i), at(j)) += scale / count[static_cast<std::size_t>(elements.component[i])];
+            hypersingular(eigen_index(i), eigen_index(j)) +=
+                scale / count[static_cast<std::size_t>(elements.component[i])];
         }
     }
 }
@@ -125,7 +124,7 @@ std::function<void(double)> part_of(const std::function<void(double)>& progress,
 /// on each triangle.
 SixColumns all_loads(const LinearElements& elements, const RotationLoads& rotations,
                      const Eigen::Matrix<double, Eigen::Dynamic, 3>& coordinate_loads) {
-    SixColumns loads(at(elements.node_count()), 6);
+    SixColumns loads(eigen_index(elements.node_count()), 6);
     loads.leftCols<3>() = rotations.loads;
     loads.rightCols<3>() = normal_loads(elements) - coordinate_loads;
     remove_component_sums(elements, loads);
@@ -188,7 +187,7 @@ Matrix3d translation_energies(const LinearElements& elements, const CompressedMa
 
 Eigen::Matrix<double, Eigen::Dynamic, 3> coordinate_loads(const LinearElements& elements,
                                                           const CompressedMatrix& single_layer, int threads) {
-    SixColumns columns = SixColumns::Zero(at(elements.node_count()), 6);
+    SixColumns columns = SixColumns::Zero(eigen_index(elements.node_count()), 6);
     columns.leftCols<3>() = coordinates_of(elements);
     return hypersingular_times(elements, single_layer, columns, threads).leftCols<3>();
 }
@@ -226,7 +225,7 @@ BoundaryElementResult solve_compressed(const LinearElements& elements, const Bou
 RowMatrix dense_single_layer(const SingleLayerEntries& entries, int threads,
                              const std::function<void(double)>& progress) {
     const std::size_t count = entries.size();
-    RowMatrix matrix(at(count), at(count));
+    RowMatrix matrix(eigen_index(count), eigen_index(count));
     const std::size_t pieces = (count + rows_a_piece - 1) / rows_a_piece;
     // Rows from the top and from the bottom alternately: pieces of about equal work.
     parallel_for(
@@ -235,13 +234,13 @@ RowMatrix dense_single_layer(const SingleLayerEntries& entries, int threads,
             const std::size_t piece = begin % 2 == 0 ? begin / 2 : pieces - 1 - begin / 2;
             const std::size_t end = std::min((piece + 1) * rows_a_piece, count);
             for (std::size_t i = piece * rows_a_piece; i < end; ++i) {
-                entries.fill_row(i, i, count, &matrix(at(i), at(i)));
+                entries.fill_row(i, i, count, &matrix(eigen_index(i), eigen_index(i)));
             }
         },
         progress);
     parallel_for(pieces, 1, threads, [&](std::size_t piece, std::size_t) {
-        const Eigen::Index begin = at(piece * rows_a_piece);
-        const Eigen::Index rows = std::min(at(rows_a_piece), at(count) - begin);
+        const Eigen::Index begin = eigen_index(piece * rows_a_piece);
+        const Eigen::Index rows = std::min(eigen_index(rows_a_piece), eigen_index(count) - begin);
         matrix.block(begin, 0, rows, begin) = matrix.block(0, begin, begin, rows).transpose();
         for (Eigen::Index i = begin; i < begin + rows; ++i) {
             for (Eigen::Index j = begin; j < i; ++j) matrix(i, j) = matrix(j, i);
@@ -256,15 +255,16 @@ RowMatrix dense_hypersingular(const LinearElements& elements, const RowMatrix& s
     for (std::size_t t = 0; t < curls.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) curls[t][k] = elements.curl(t, k);
     }
-    RowMatrix matrix = RowMatrix::Zero(at(corners.size()), at(corners.size()));
+    RowMatrix matrix = RowMatrix::Zero(eigen_index(corners.size()), eigen_index(corners.size()));
     parallel_for(corners.size(), rows_a_piece, threads, [&](std::size_t begin, std::size_t end) {
-        Eigen::Matrix<double, 3, Eigen::Dynamic> row(3, at(curls.size()));
+        Eigen::Matrix<double, 3, Eigen::Dynamic> row(3, eigen_index(curls.size()));
         for (std::size_t i = begin; i < end; ++i) {
             row.setZero();
-            for (const auto& [t, k] : corners[i]) row += curls[t][k] * single_layer.row(at(t));
+            for (const auto& [t, k] : corners[i]) row += curls[t][k] * single_layer.row(eigen_index(t));
             for (std::size_t t = 0; t < curls.size(); ++t) {
                 for (std::size_t k = 0; k < 3; ++k) {
-                    matrix(at(i), at(elements.node(t, k))) += row.col(at(t)).dot(curls[t][k]);
+                    matrix(eigen_index(i), eigen_index(elements.node(t, k))) +=
+                        row.col(eigen_index(t)).dot(curls[t][k]);
                 }
             }
         }
@@ -283,11 +283,11 @@ SixColumns unit_potentials(const Surface& surface, int threads) {
     const LinearElements elements = linear_elements(surface, leaf_size);
     DenseEquations equations = dense_equations(elements, {threads, {}});
     const SixColumns of_nodes = solved(equations);
-    SixColumns potentials = SixColumns::Zero(at(surface.vertices.size()), 6);
+    SixColumns potentials = SixColumns::Zero(eigen_index(surface.vertices.size()), 6);
     for (std::size_t t = 0; t < elements.triangle_count(); ++t) {
         const auto& corners = surface.corners[elements.tree.order[t]];
         for (std::size_t k = 0; k < 3; ++k) {
-            potentials.row(corners[k]) = -of_nodes.row(at(elements.node(t, k)));
+            potentials.row(corners[k]) = -of_nodes.row(eigen_index(elements.node(t, k)));
         }
     }
     return potentials;

@@ -10,12 +10,8 @@
 namespace samara {
 namespace {
 
-constexpr std::size_t rows_a_piece = 32;
+constexpr std::size_t load_rows_a_piece = 32;
 constexpr double full_solid_angle = 4.0 * std::numbers::pi;
-
-Eigen::Index at(std::size_t index) {
-    return static_cast<Eigen::Index>(index);
-}
 
 /// Loads of all triangles on one: row k of `loads` belongs to its corner k.
 struct RowLoads {
@@ -37,7 +33,7 @@ void add_field(const FieldAtPoint& field, const FlatTriangle& triangle, const Ru
     const Vector3d flux(field.flux[0], field.flux[1], field.flux[2]);
     const Vector3d potential(field.potential[0], field.potential[1], field.potential[2]);
     for (std::size_t k = 0; k < 3; ++k)
-        row.loads.row(at(k)) += point.corner_shares[k] * area * flux.transpose();
+        row.loads.row(eigen_index(k)) += point.corner_shares[k] * area * flux.transpose();
     row.energies += area * potential * motions.transpose();
 }
 
@@ -85,7 +81,7 @@ void add_near(const RotationSourceSets& sources, const std::vector<std::size_t>&
     row.loads += sums.solid_angles;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vector6d motions = motions_at(triangle.corners[k], triangle.normal);
-        row.energies += sums.potentials.row(at(k)).transpose() * motions.transpose();
+        row.energies += sums.potentials.row(eigen_index(k)).transpose() * motions.transpose();
     }
 }
 
@@ -105,7 +101,7 @@ RowLoads row_loads(const LinearElements& elements, const RotationSourceSets& sou
 Matrix3d own_loads(const FlatTriangle& triangle) {
     Matrix3d at_corners;
     for (std::size_t k = 0; k < 3; ++k) {
-        at_corners.row(at(k)) = triangle.corners[k].cross(triangle.normal).transpose();
+        at_corners.row(eigen_index(k)) = triangle.corners[k].cross(triangle.normal).transpose();
     }
     const Matrix3d mass = triangle.area / 12.0 * (Matrix3d::Identity() + Matrix3d::Ones());
     return mass * at_corners;
@@ -118,18 +114,19 @@ RotationLoads rotation_loads(const LinearElements& elements, int threads,
     const RotationSourceSets sources = rotation_sources(elements);
     std::vector<RowLoads> rows(elements.triangle_count());
     parallel_for(
-        rows.size(), rows_a_piece, threads,
+        rows.size(), load_rows_a_piece, threads,
         [&](std::size_t begin, std::size_t end) {
             for (std::size_t t = begin; t < end; ++t) rows[t] = row_loads(elements, sources, t);
         },
         progress);
     RotationLoads result;
-    result.loads.setZero(at(elements.node_count()), 3);
+    result.loads.setZero(eigen_index(elements.node_count()), 3);
     result.energies.setZero();
     result.closure_error = 0.0;
     for (std::size_t t = 0; t < rows.size(); ++t) {
         const Matrix3d loads = 0.5 * own_loads(elements.triangles[t]) - rows[t].loads / full_solid_angle;
-        for (std::size_t k = 0; k < 3; ++k) result.loads.row(at(elements.node(t, k))) += loads.row(at(k));
+        for (std::size_t k = 0; k < 3; ++k)
+            result.loads.row(eigen_index(elements.node(t, k))) += loads.row(eigen_index(k));
         result.energies += rows[t].energies / full_solid_angle;
         const double share = rows[t].solid_angle / full_solid_angle;
         result.closure_error = std::max(result.closure_error, std::abs(share - 0.5));

@@ -42,10 +42,6 @@ constexpr std::size_t groups_a_piece = 2;
 // Nearer than this, the rounding of the places in single precision counts. The body's size is 1.
 constexpr double least_far_distance = 0.02;
 
-Eigen::Index row_of(std::size_t index) {
-    return static_cast<Eigen::Index>(index);
-}
-
 /// Fills the equations of one group of nodes after the other.
 class GroupAssembly {
   public:
@@ -137,7 +133,7 @@ class GroupAssembly {
                 ? quadrature_.near_integrals(panel, panels_.nodes[first_ + i])
                 : quadrature_.own_integrals(panel, static_cast<std::size_t>(own - panel.nodes.begin()));
         for (std::size_t a = 0; a < 6; ++a) add_entry(panel.nodes[a], i, integrals.double_layer[a]);
-        for (std::size_t k = 0; k < 3; ++k) potentials_[k][i] += integrals.potential[row_of(k)];
+        for (std::size_t k = 0; k < 3; ++k) potentials_[k][i] += integrals.potential[eigen_index(k)];
     }
 
     void add_entry(std::int32_t column, std::size_t i, double value) {
@@ -151,10 +147,10 @@ class GroupAssembly {
         for (std::size_t i = 0; i < last_ - first_; ++i) {
             const std::size_t row = first_ + i;
             float& own = rows_[row * group_size + i];
-            equations_.diagonal[row_of(row)] = 1.0 - (sums[i] - static_cast<double>(own));
-            row_errors_[row_of(row)] = std::abs(sums[i] - shares_[row]);
+            equations_.diagonal[eigen_index(row)] = 1.0 - (sums[i] - static_cast<double>(own));
+            row_errors_[eigen_index(row)] = std::abs(sums[i] - shares_[row]);
             own = 0.0F;
-            equations_.right_hand_sides.row(row_of(row)) << -potentials_[0][i], -potentials_[1][i],
+            equations_.right_hand_sides.row(eigen_index(row)) << -potentials_[0][i], -potentials_[1][i],
                 -potentials_[2][i], -panels_.nodes[row].transpose();
         }
     }
@@ -191,9 +187,9 @@ SixColumns CurvedEquations::multiply(const SixColumns& columns, int threads) con
             multiply_group(group_rows(group), count, columns.data(), part.data());
             const std::size_t first = group * group_size;
             for (std::size_t row = first; row < std::min(first + group_size, count); ++row) {
-                product.row(row_of(row)) =
+                product.row(eigen_index(row)) =
                     Eigen::Map<const Eigen::Matrix<double, 1, 6>>(&part[(row - first) * 6]) +
-                    diagonal[row_of(row)] * columns.row(row_of(row));
+                    diagonal[eigen_index(row)] * columns.row(eigen_index(row));
             }
         }
     });
@@ -207,9 +203,9 @@ CurvedEquations assemble_curved_equations(const CurvedPanels& panels, double tol
     equations.count = panels.nodes.size();
     equations.groups = (equations.count + group_size - 1) / group_size;
     equations.rows = LargeArray<float>(equations.groups * group_size * equations.count);
-    equations.diagonal.resize(row_of(equations.count));
-    equations.right_hand_sides.resize(row_of(equations.count), 6);
-    Eigen::VectorXd row_errors(row_of(equations.count));
+    equations.diagonal.resize(eigen_index(equations.count));
+    equations.right_hand_sides.resize(eigen_index(equations.count), 6);
+    Eigen::VectorXd row_errors(eigen_index(equations.count));
     const PanelQuadrature quadrature(panels.panels, tolerance, options.threads);
     const std::vector<double> shares = interior_shares(panels, options.threads);
     parallel_for(
@@ -286,10 +282,10 @@ SixColumns normal_moments(const CurvedPanels& panels, int threads) {
             }
         }
     });
-    SixColumns moments = SixColumns::Zero(row_of(panels.nodes.size()), 6);
+    SixColumns moments = SixColumns::Zero(eigen_index(panels.nodes.size()), 6);
     for (std::size_t j = 0; j < parts.size(); ++j) {
         for (std::size_t a = 0; a < 6; ++a) {
-            moments.row(panels.panels[j].nodes[a]) += parts[j].col(row_of(a)).transpose();
+            moments.row(panels.panels[j].nodes[a]) += parts[j].col(eigen_index(a)).transpose();
         }
     }
     return moments;
@@ -299,7 +295,7 @@ SixColumns normal_moments(const CurvedPanels& panels, int threads) {
 double thickness_in_panels(const CurvedPanels& panels, const SixColumns& moments) {
     double volume = 0.0;
     for (std::size_t i = 0; i < panels.nodes.size(); ++i) {
-        volume -= moments.row(row_of(i)).tail<3>().dot(panels.nodes[i]) / 3.0;
+        volume -= moments.row(eigen_index(i)).tail<3>().dot(panels.nodes[i]) / 3.0;
     }
     double area = 0.0;
     for (const CurvedPanel& panel : panels.panels)
@@ -362,7 +358,7 @@ BoundaryElementResult solve_curved_collocation(const Surface& surface,
     BlockSolution solution = solve(panels, equations, thickness, options.threads);
     result.iterations = solution.iterations;
     for (std::size_t i = 0; i < equations.count; ++i) {
-        solution.columns.row(row_of(i)).tail<3>() += panels.nodes[i].transpose();  // phi = psi + x
+        solution.columns.row(eigen_index(i)).tail<3>() += panels.nodes[i].transpose();  // phi = psi + x
     }
     result.tensor = solution.columns.transpose() * moments;
     return result;

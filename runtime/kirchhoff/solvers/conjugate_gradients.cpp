@@ -38,10 +38,6 @@ Vector6d allowed(const Vector6d& energies, double tolerance) {
 // resistance at all.
 constexpr double shift = 1e-9;
 
-Eigen::Index at(std::size_t index) {
-    return static_cast<Eigen::Index>(index);
-}
-
 using NodeTriangles = std::vector<std::vector<std::size_t>>;
 
 NodeTriangles triangles_of_nodes(const LinearElements& elements) {
@@ -78,7 +74,7 @@ std::vector<std::size_t> triangles_at(const NodeTriangles& triangles, const std:
 /// Returns V of some triangles, in ascending order.
 Eigen::MatrixXd local_single_layer(const SingleLayerEntries& entries,
                                    const std::vector<std::size_t>& triangles) {
-    Eigen::MatrixXd matrix(at(triangles.size()), at(triangles.size()));
+    Eigen::MatrixXd matrix(eigen_index(triangles.size()), eigen_index(triangles.size()));
     std::vector<double> row(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (std::size_t j = i; j < triangles.size();) {
@@ -86,7 +82,7 @@ Eigen::MatrixXd local_single_layer(const SingleLayerEntries& entries,
             while (end < triangles.size() && triangles[end] == triangles[end - 1] + 1) ++end;
             entries.fill_row(triangles[i], triangles[j], triangles[end - 1] + 1, row.data());
             for (std::size_t k = j; k < end; ++k) {
-                matrix(at(i), at(k)) = matrix(at(k), at(i)) = row[k - j];
+                matrix(eigen_index(i), eigen_index(k)) = matrix(eigen_index(k), eigen_index(i)) = row[k - j];
             }
             j = end;
         }
@@ -99,8 +95,8 @@ Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const Single
                                     const std::vector<std::size_t>& triangles) {
     const Eigen::MatrixXd single_layer = local_single_layer(entries, triangles);
     std::unordered_map<std::size_t, Eigen::Index> place;
-    for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = at(i);
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(at(nodes.size()), at(nodes.size()));
+    for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = eigen_index(i);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(eigen_index(nodes.size()), eigen_index(nodes.size()));
     std::vector<std::array<Eigen::Index, 3>> places(triangles.size());  // -1: a node of other clusters alone
     std::vector<std::array<Vector3d, 3>> curls(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -110,12 +106,13 @@ Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const Single
             curls[t][k] = elements.curl(triangles[t], k);
         }
     }
-    Eigen::Matrix<double, 3, Eigen::Dynamic> row(3, at(nodes.size()));
+    Eigen::Matrix<double, 3, Eigen::Dynamic> row(3, eigen_index(nodes.size()));
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         row.setZero();
         for (std::size_t s = 0; s < triangles.size(); ++s) {
             for (std::size_t k = 0; k < 3; ++k) {
-                if (places[s][k] >= 0) row.col(places[s][k]) += single_layer(at(s), at(t)) * curls[s][k];
+                if (places[s][k] >= 0)
+                    row.col(places[s][k]) += single_layer(eigen_index(s), eigen_index(t)) * curls[s][k];
             }
         }
         for (std::size_t k = 0; k < 3; ++k) {
@@ -206,9 +203,9 @@ SixColumns SchwarzPreconditioner::apply(const SixColumns& residuals, int threads
     std::vector<Eigen::MatrixXd> solutions(parts_.size());
     parallel_for(parts_.size(), 1, threads, [&](std::size_t p, std::size_t) {
         const Part& part = parts_[p];
-        Eigen::MatrixXd local(at(part.nodes.size()), 6);
+        Eigen::MatrixXd local(eigen_index(part.nodes.size()), 6);
         for (std::size_t i = 0; i < part.nodes.size(); ++i)
-            local.row(at(i)) = residuals.row(at(part.nodes[i]));
+            local.row(eigen_index(i)) = residuals.row(eigen_index(part.nodes[i]));
         const auto lower = part.factor.triangularView<Eigen::Lower>();
         lower.solveInPlace(local);
         lower.transpose().solveInPlace(local);
@@ -217,7 +214,7 @@ SixColumns SchwarzPreconditioner::apply(const SixColumns& residuals, int threads
     SixColumns result = SixColumns::Zero(residuals.rows(), 6);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
         for (std::size_t i = 0; i < parts_[p].nodes.size(); ++i) {
-            result.row(at(parts_[p].nodes[i])) += solutions[p].row(at(i));
+            result.row(eigen_index(parts_[p].nodes[i])) += solutions[p].row(eigen_index(i));
         }
     }
     return result;
