@@ -126,18 +126,18 @@ HWY_INLINE Stiffness<V> stiffness(const StepConstants& c, const LoadBlocks<V>& l
 /// The step's matrix by its blocks, factorised for solving.
 template <class V>
 struct StepMatrix {
-    Square<V> angular, coupling, back, linear;
+    Square<V> angular, angular_linear, linear_angular, linear;
     Square<V> linear_inverse, linear_by_angular, angular_inverse;
 
     /// Eliminates the velocity, then the rest for the angular velocity.
     HWY_INLINE void factorise() {
         linear_inverse = inverse(linear);
-        linear_by_angular = linear_inverse * back;
-        angular_inverse = inverse(angular - coupling * linear_by_angular);
+        linear_by_angular = linear_inverse * linear_angular;
+        angular_inverse = inverse(angular - angular_linear * linear_by_angular);
     }
     [[nodiscard]] HWY_INLINE Velocities<V> solved_for(const Triple<V>& moment, const Triple<V>& force) const {
         const Triple<V> rest = linear_inverse * force;
-        const Triple<V> omega = angular_inverse * (moment - coupling * rest);
+        const Triple<V> omega = angular_inverse * (moment - angular_linear * rest);
         return {omega, rest - linear_by_angular * omega};
     }
 };
@@ -149,93 +149,137 @@ struct HalfTurn {
     HWY_INLINE Triple<V> operator()(const Triple<V>& a) const { return rotated_back(half_rotation, a); }
 };
 
-/// Solves the step's system with the loads and the transport taken at the middle that was found or guessed
-/// before. Its unknowns are the changes of the velocities: solving for the velocities themselves would drift
-/// by a rounding error a step.
+/// The equations of the midpoint step, as their stages assemble them: `matrix` times the changes of the
+/// velocities is `step` times moment and force, those at the step's start.
 template <class V>
-HWY_INLINE void improve(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
-    middle.half_rotation = (V(0.5) * start.h) * middle.omega;
-    const HalfTurn<V> under_body{middle.half_rotation};
-    const Triple<V> gravity = under_body(start.gravity);
+struct StepSystem {
+    StepMatrix<V> matrix;
+    Triple<V> angular_momentum, momentum;  ///< in the middle; of the linear one the part of directed_inertia
+    Triple<V> moment, force;
+    V step;  ///< theta h
+};
+
+/// Stage 1: the inertia, and the momenta in the middle.
+template <class V>
+HWY_INLINE void add_inertia(const StepConstants& c, const StepMiddle<V>& middle, StepSystem<V>& system) {
     // The part of the linear momentum along the velocity (m* v, in units of m*) acts as a force alone: as p x
     // v its moment would vanish only where the v inside p and the one it acts on are parallel, and otherwise
     // spin even a sphere.
-    StepMatrix<V> matrix;
+    StepMatrix<V>& matrix = system.matrix;
     matrix.angular = broadcast_symmetric<V>(c.inertia_angular);
     const Square<V> directed_inertia = broadcast_symmetric<V>(c.directed_inertia);
     matrix.linear = plus_diagonal(directed_inertia, V(1.0));
-    Triple<V> angular_momentum = matrix.angular * middle.omega;
-    Triple<V> momentum = directed_inertia * middle.velocity;
+    system.angular_momentum = matrix.angular * middle.omega;
+    system.momentum = directed_inertia * middle.velocity;
     if (c.coupled) {
-        matrix.coupling = broadcast<V>(c.inertia_coupling);
-        matrix.back = transposed(matrix.coupling);
-        angular_momentum = angular_momentum + matrix.coupling * middle.velocity;
-        momentum = momentum + matrix.back * middle.omega;
+        matrix.angular_linear = broadcast<V>(c.inertia_coupling);
+        matrix.linear_angular = transposed(matrix.angular_linear);
+        system.angular_momentum = system.angular_momentum + matrix.angular_linear * middle.velocity;
+        system.momentum = system.momentum + matrix.linear_angular * middle.omega;
     } else {
-        matrix.coupling = no_matrix<V>();
-        matrix.back = matrix.coupling;
+        matrix.angular_linear = no_matrix<V>();
+        matrix.linear_angular = matrix.angular_linear;
     }
-    Triple<V> moment = cross(angular_momentum, start.omega) + cross(momentum, start.velocity);
-    Triple<V> force =
-        V(c.weight) * gravity + cross(momentum, start.omega) - cross(middle.omega, start.velocity);
-    if (c.off_center) moment = moment + cross(broadcast<V>(c.weight_moment), gravity);
-    if (start.is_pushed) {
-        moment = moment + under_body(start.push.moment);
-        force = force + under_body(start.push.force);
-    }
-    V step = V(0.5) * start.h;
-    middle.theta = V(0.5);
-    if (c.loads != Loads::none) {
-        Shares<V> shares{V(1.0), V(1.0)};
-        if (c.wake_forms) {
-            shares = shares_of(wake_in_the_middle(c, start.wake, start.h, middle.omega, middle.velocity,
-                                                  middle.half_rotation));
-        }
-        LoadBlocks<V> loads;
-        if (start.fluid_rotates) {
-            const Triple<V> fluid_rotation = under_body(start.sampled_rotation);
-            loads = relative_load_blocks(c, middle.omega - fluid_rotation, middle.velocity, middle.omega,
-                                         shares.moment);
-            moment = moment + loads.moment_by_rotation * fluid_rotation;
-            force = force + loads.force_by_rotation * fluid_rotation;
-        } else {
-            loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, shares.moment);
-        }
-        add_transport(c, middle.omega, middle.velocity, shares.transport, loads);
-        if (c.has_side_pressure)
-            add_side_pressure(c, middle.velocity, under_body(start.wake_fluctuation), loads);
-        const Stiffness<V> stiff = stiffness(c, loads, start.h);
-        const V z = larger(stiff.angular, stiff.linear);
-        middle.theta = (V(3.0) + z) / (V(6.0) + z);
-        middle.stiffness = stiff.linear;
-        step = middle.theta * start.h;
-        matrix.angular = matrix.angular + step * loads.moment_by_rotation;
-        matrix.coupling = matrix.coupling + step * loads.moment_by_velocity;
-        matrix.back = matrix.back + step * loads.force_by_rotation;
-        matrix.linear = matrix.linear + step * loads.force_by_velocity;
-        moment =
-            moment - (loads.moment_by_rotation * start.omega + loads.moment_by_velocity * start.velocity);
-        force = force - (loads.force_by_rotation * start.omega + loads.force_by_velocity * start.velocity);
-    }
-    matrix.angular = plus_cross(matrix.angular, -step * angular_momentum);
-    matrix.coupling = plus_cross(matrix.coupling, -step * momentum);
-    matrix.back = plus_cross(matrix.back, -step * momentum);
-    matrix.linear = plus_cross(matrix.linear, step * middle.omega);
-    matrix.factorise();
+}
 
-    const Triple<V> right_moment = step * moment;
-    const Triple<V> right_force = step * force;
+/// Stage 2: what the rotating axes, weight and a host's push do.
+template <class V>
+HWY_INLINE void add_forces(const StepConstants& c, const StepStart<V>& start, const StepMiddle<V>& middle,
+                           StepSystem<V>& system) {
+    const HalfTurn<V> under_body{middle.half_rotation};
+    const Triple<V> gravity = under_body(start.gravity);
+    system.moment = cross(system.angular_momentum, start.omega) + cross(system.momentum, start.velocity);
+    system.force =
+        V(c.weight) * gravity + cross(system.momentum, start.omega) - cross(middle.omega, start.velocity);
+    if (c.off_center) system.moment = system.moment + cross(broadcast<V>(c.weight_moment), gravity);
+    if (start.is_pushed) {
+        system.moment = system.moment + under_body(start.push.moment);
+        system.force = system.force + under_body(start.push.force);
+    }
+}
+
+/// Stage 3: the loads of the fluid, whose stiffness tells where in the step the middle lies (theta).
+template <class V>
+HWY_INLINE void add_loads(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle,
+                          StepSystem<V>& system) {
+    const HalfTurn<V> under_body{middle.half_rotation};
+    StepMatrix<V>& matrix = system.matrix;
+    Shares<V> shares{V(1.0), V(1.0)};
+    if (c.wake_forms) {
+        shares = shares_of(
+            wake_in_the_middle(c, start.wake, start.h, middle.omega, middle.velocity, middle.half_rotation));
+    }
+    LoadBlocks<V> loads;
+    if (start.fluid_rotates) {
+        const Triple<V> fluid_rotation = under_body(start.sampled_rotation);
+        loads = relative_load_blocks(c, middle.omega - fluid_rotation, middle.velocity, middle.omega,
+                                     shares.moment);
+        system.moment = system.moment + loads.moment_by_rotation * fluid_rotation;
+        system.force = system.force + loads.force_by_rotation * fluid_rotation;
+    } else {
+        loads = relative_load_blocks(c, middle.omega, middle.velocity, middle.omega, shares.moment);
+    }
+    add_transport(c, middle.omega, middle.velocity, shares.transport, loads);
+    if (c.has_side_pressure) add_side_pressure(c, middle.velocity, under_body(start.wake_fluctuation), loads);
+    const Stiffness<V> stiff = stiffness(c, loads, start.h);
+    const V z = larger(stiff.angular, stiff.linear);
+    middle.theta = (V(3.0) + z) / (V(6.0) + z);
+    middle.stiffness = stiff.linear;
+    system.step = middle.theta * start.h;
+    matrix.angular = matrix.angular + system.step * loads.moment_by_rotation;
+    matrix.angular_linear = matrix.angular_linear + system.step * loads.moment_by_velocity;
+    matrix.linear_angular = matrix.linear_angular + system.step * loads.force_by_rotation;
+    matrix.linear = matrix.linear + system.step * loads.force_by_velocity;
+    system.moment =
+        system.moment - (loads.moment_by_rotation * start.omega + loads.moment_by_velocity * start.velocity);
+    system.force =
+        system.force - (loads.force_by_rotation * start.omega + loads.force_by_velocity * start.velocity);
+}
+
+/// Stage 4: the rotation of the momenta over the step. The matrix is complete with it and is factorised.
+template <class V>
+HWY_INLINE void add_rotation_of_momenta(const StepMiddle<V>& middle, StepSystem<V>& system) {
+    StepMatrix<V>& matrix = system.matrix;
+    matrix.angular = plus_cross(matrix.angular, -system.step * system.angular_momentum);
+    matrix.angular_linear = plus_cross(matrix.angular_linear, -system.step * system.momentum);
+    matrix.linear_angular = plus_cross(matrix.linear_angular, -system.step * system.momentum);
+    matrix.linear = plus_cross(matrix.linear, system.step * middle.omega);
+    matrix.factorise();
+}
+
+/// Stage 5: the changes of the velocities, refined once where the body rotates far in the step.
+template <class V>
+HWY_INLINE Velocities<V> solved_change(const StepSystem<V>& system, const StepStart<V>& start) {
+    const StepMatrix<V>& matrix = system.matrix;
+    const Triple<V> right_moment = system.step * system.moment;
+    const Triple<V> right_force = system.step * system.force;
     Velocities<V> change = matrix.solved_for(right_moment, right_force);
     if (NumberTraits<V>::any_of(start.rotates_far)) {
         const Velocities<V> more = matrix.solved_for(
-            right_moment - matrix.angular * change.omega - matrix.coupling * change.velocity,
-            right_force - matrix.back * change.omega - matrix.linear * change.velocity);
+            right_moment - matrix.angular * change.omega - matrix.angular_linear * change.velocity,
+            right_force - matrix.linear_angular * change.omega - matrix.linear * change.velocity);
         change.omega = select(start.rotates_far, change.omega + more.omega, change.omega);
         change.velocity = select(start.rotates_far, change.velocity + more.velocity, change.velocity);
     }
-    middle.change = change;
-    middle.omega = start.omega + change.omega;
-    middle.velocity = start.velocity + change.velocity;
+    return change;
+}
+
+/// Solves the step with the loads and the transport taken at the middle that was found or guessed before. The
+/// unknowns are the changes of the velocities: solving for the velocities themselves would drift by a
+/// rounding error a step.
+template <class V>
+HWY_INLINE void solve_midpoint(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+    middle.half_rotation = (V(0.5) * start.h) * middle.omega;
+    middle.theta = V(0.5);
+    StepSystem<V> system;
+    system.step = V(0.5) * start.h;
+    add_inertia(c, middle, system);
+    add_forces(c, start, middle, system);
+    if (c.loads != Loads::none) add_loads(c, start, middle, system);
+    add_rotation_of_momenta(middle, system);
+    middle.change = solved_change(system, start);
+    middle.omega = start.omega + middle.change.omega;
+    middle.velocity = start.velocity + middle.change.velocity;
 }
 
 template <class Condition, class V>
@@ -249,13 +293,14 @@ HWY_INLINE StepMiddle<V> select(Condition condition, const StepMiddle<V>& a, con
             select(condition, a.stiffness, b.stiffness)};
 }
 
-/// Returns whether a guessed middle must be improved twice: always where a body has no noise. Noise, which is
+/// Returns whether a guessed middle needs a second pass: always where a body has no noise. Noise, which is
 /// not smooth, has a larger error in a step than the second pass would remove. Loads and transport go with
 /// the square of the velocity: to first order, a middle from a guess with the error d has the error 2 d / u
 /// of the velocity's change. One pass is of second order too, where drag is not stiff.
 template <class V>
-HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const StepConstants& c, const StepStart<V>& start,
-                                                    const Velocities<V>& guess, const StepMiddle<V>& found) {
+HWY_INLINE typename NumberTraits<V>::Mask needs_second_pass(const StepConstants& c, const StepStart<V>& start,
+                                                            const Velocities<V>& guess,
+                                                            const StepMiddle<V>& found) {
     const V tip_square(c.tip_square);
     const auto square = [&](const Triple<V>& omega, const Triple<V>& velocity)
                             HWY_ATTR { return dot(velocity, velocity) + tip_square * dot(omega, omega); };
@@ -271,16 +316,16 @@ HWY_INLINE typename NumberTraits<V>::Mask is_unsure(const StepConstants& c, cons
 /// Returns the middle that a second pass finds, for bodies where it matters. Not inlined: most steps need
 /// none.
 template <class V>
-HWY_NOINLINE void find_again(const StepConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
-                             typename NumberTraits<V>::Mask unsure, StepMiddle<V>& middle) {
+HWY_NOINLINE void second_pass(const StepConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
+                              typename NumberTraits<V>::Mask repeated, StepMiddle<V>& middle) {
     StepMiddle<V> found = middle;
     // Where drag is stiff, a middle from the speed alone would oscillate about the terminal speed: halfway to
     // the guess lies Newton's root. Elsewhere the middle stays, of second order.
     const V square = middle.stiffness * middle.stiffness;
     const V back = V(0.5) * square / (V(36.0) + square);
     found.velocity = middle.velocity + back * (guess.velocity - middle.velocity);
-    improve(c, start, found);
-    middle = select(unsure, found, middle);
+    solve_midpoint(c, start, found);
+    middle = select(repeated, found, middle);
 }
 
 /// Returns the middle of the step from velocities guessed there: by one pass, or by two where it matters.
@@ -291,14 +336,14 @@ HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>
     found.omega = guess.omega;
     found.velocity = guess.velocity;
     found.stiffness = V(0.0);
-    improve(c, start, found);
-    const auto unsure = is_unsure(c, start, guess, found);
-    if (NumberTraits<V>::any_of(unsure)) {
+    solve_midpoint(c, start, found);
+    const auto repeated = needs_second_pass(c, start, guess, found);
+    if (NumberTraits<V>::any_of(repeated)) {
         // Copies, so that the others may stay in registers.
         const StepStart<V> same_start = start;
         const Velocities<V> same_guess = guess;
         StepMiddle<V> better = found;
-        find_again(c, same_start, same_guess, unsure, better);
+        second_pass(c, same_start, same_guess, repeated, better);
         return better;
     }
     return found;
