@@ -265,36 +265,36 @@ TEST(KirchhoffTensor, UnweldedVerticesDoNotMatter) {
 TEST(KirchhoffTensor, NamesTheErrorOfABadSurface) {
     const Surface sound = test::icosphere(2);
     const VolumeMoments moments = test::moments_of(sound);
-    const auto error_of = [&](const Surface& surface) {
+    const auto message_of = [&](const Surface& surface) {
         return error_of([&] { kirchhoff_tensor(surface, moments); });
     };
 
     Surface holed = sound;
     holed.corners.pop_back();
-    EXPECT_THAT(error_of(holed), HasSubstr("fill the hole"));
+    EXPECT_THAT(message_of(holed), HasSubstr("fill the hole"));
 
     Surface one_flipped = sound;
     std::swap(one_flipped.corners[7][0], one_flipped.corners[7][1]);
-    EXPECT_THAT(error_of(one_flipped), HasSubstr("turned against the others"));
+    EXPECT_THAT(message_of(one_flipped), HasSubstr("turned against the others"));
 
     Surface inside_out = sound;
     for (auto& triangle : inside_out.corners) std::swap(triangle[0], triangle[1]);
-    EXPECT_THAT(error_of(inside_out), HasSubstr("inside out"));
+    EXPECT_THAT(message_of(inside_out), HasSubstr("inside out"));
 
     Surface repeated = sound;
     repeated.corners.push_back(repeated.corners.front());
-    EXPECT_THAT(error_of(repeated), HasSubstr("are the same"));
+    EXPECT_THAT(message_of(repeated), HasSubstr("are the same"));
 
-    EXPECT_THAT(error_of(Surface{}), HasSubstr("holds no triangles"));
+    EXPECT_THAT(message_of(Surface{}), HasSubstr("holds no triangles"));
 
     Surface flat = sound;
     flat.vertices[static_cast<std::size_t>(flat.corners[0][0])] =
         flat.vertices[static_cast<std::size_t>(flat.corners[0][1])];
-    EXPECT_THAT(error_of(flat), HasSubstr("has no area"));
+    EXPECT_THAT(message_of(flat), HasSubstr("has no area"));
 
     Surface not_finite = sound;
     not_finite.vertices[3].x() = std::nan("");
-    EXPECT_THAT(error_of(not_finite), HasSubstr("which is not finite"));
+    EXPECT_THAT(message_of(not_finite), HasSubstr("which is not finite"));
 
     // A sphere within the sphere, whatever its orientation: every edge is sound, and still it is no body.
     Surface nested = sound;
@@ -303,7 +303,7 @@ TEST(KirchhoffTensor, NamesTheErrorOfABadSurface) {
     nested.vertices.insert(nested.vertices.end(), inner.vertices.begin(), inner.vertices.end());
     for (const auto& [a, b, c] : inner.corners)
         nested.corners.push_back({a + offset, b + offset, c + offset});
-    EXPECT_THAT(error_of(nested), HasSubstr("a body within a body"));
+    EXPECT_THAT(message_of(nested), HasSubstr("a body within a body"));
 }
 
 TEST(TensorError, IsTheWorstBlocksAndMeasuresZeroBlocksByTheScale) {
