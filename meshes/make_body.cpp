@@ -8,7 +8,6 @@
 
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
-#include "meshes/checks/volume_moments.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/shape_reader.hpp"
 #include "meshes/remeshing/remesh.hpp"

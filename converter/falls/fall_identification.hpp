@@ -17,14 +17,14 @@ namespace samara {
 struct SimulatedFall {
     std::string name;
     Measures solved;      ///< of the full CFD
-    Measures flown;       ///< of the runtime
+    Measures simulated;   ///< of the runtime
     FallBalance balance;  ///< of the full CFD
 };
 
 /// One fall of a body as motions by full CFD and by the runtime.
 struct FallMotions {
-    Motion solved;  ///< of the full CFD
-    Motion flown;   ///< of the runtime, at the same times
+    Motion solved;     ///< of the full CFD
+    Motion simulated;  ///< of the runtime, at the same times
 };
 
 /// Identified dynamic coefficients, and their quality.

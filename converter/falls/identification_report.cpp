@@ -18,10 +18,10 @@ nlohmann::json coefficients_as_json(const DynamicCoefficients& coefficients) {
     return json;
 }
 
-std::string metrics(const char* what, const Measures& measures) {
+std::string metrics(const char* source, const Measures& measures) {
     return fmt::format(
         "    {:<9} descends at {:.4g} m/s, {} Hz, inclination up to {:.1f} degrees, {:.3g} rad/s rms, {}\n",
-        what, measures.descent_speed, measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
+        source, measures.descent_speed, measures.frequency ? fmt::format("{:.3g}", *measures.frequency) : "-",
         degrees * measures.inclination_amplitude, measures.rms_angular_speed, name_of(measures.regime));
 }
 
@@ -30,7 +30,7 @@ std::string metrics(const char* what, const Measures& measures) {
 nlohmann::json simulated_fall_as_json(const SimulatedFall& fall) {
     return {{"name", fall.name},
             {"solved", as_json(fall.solved)},
-            {"flown", as_json(fall.flown)},
+            {"flown", as_json(fall.simulated)},
             {"balance", {{"force", fall.balance.force}, {"moment", fall.balance.moment}}}};
 }
 
@@ -47,12 +47,13 @@ nlohmann::json identification_as_json(const Identification& identification) {
 std::string simulated_fall_as_text(const SimulatedFall& fall) {
     return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name,
                        100.0 * fall.balance.force, 100.0 * fall.balance.moment) +
-           metrics("full CFD", fall.solved) + metrics("flown", fall.flown);
+           metrics("full CFD", fall.solved) + metrics("simulated", fall.simulated);
 }
 
 std::string identification_as_text(const Identification& identification) {
     std::string text = fmt::format(
-        "Dynamic coefficients from {} stretches of free fall, missed by {:.1f} % of the fall's speed:\n",
+        "Dynamic coefficients from {} stretches of free fall, with a prediction error of {:.1f} % of the "
+        "fall's speed:\n",
         identification.segments, 100.0 * identification.prediction_error);
     for (const SimulatedFall& fall : identification.falls) text += simulated_fall_as_text(fall);
     return text;

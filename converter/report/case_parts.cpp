@@ -287,15 +287,15 @@ struct OscillationErrors {
 
     void add(const SimulatedFall& fall) {
         const Measures& solved = fall.solved;
-        const Measures& flown = fall.flown;
-        if (solved.frequency && flown.frequency) {
-            frequency = std::max(frequency, std::abs(*flown.frequency / *solved.frequency - 1.0));
+        const Measures& simulated = fall.simulated;
+        if (solved.frequency && simulated.frequency) {
+            frequency = std::max(frequency, std::abs(*simulated.frequency / *solved.frequency - 1.0));
         }
-        const double more = std::abs(flown.inclination_amplitude - solved.inclination_amplitude);
+        const double more = std::abs(simulated.inclination_amplitude - solved.inclination_amplitude);
         if (more > 1.0 / degrees) amplitude = std::max(amplitude, more / solved.inclination_amplitude);
-        if (regimes.empty() && flown.regime != solved.regime) {
-            regimes = fmt::format("; {} is {} where it was solved as {}", fall.name, name_of(flown.regime),
-                                  name_of(solved.regime));
+        if (regimes.empty() && simulated.regime != solved.regime) {
+            regimes = fmt::format("; {} is {} where it was solved as {}", fall.name,
+                                  name_of(simulated.regime), name_of(solved.regime));
         }
     }
 
@@ -311,14 +311,14 @@ struct OscillationErrors {
 Json fall_picture(const Body& body, const FallRecord& record) {
     const TemporaryFolder folder;
     const FallMotions motions = fall_motions(body, record);
-    write_motion_file(folder / "flown", motions.flown);
+    write_motion_file(folder / "simulated", motions.simulated);
     write_motion_file(folder / "solved", motions.solved);
-    const MotionReader flown(folder / "flown");
+    const MotionReader simulated(folder / "simulated");
     const MotionReader solved(folder / "solved");
     const std::string& name = record.fall.name;
     FallChoice one;
     one.name = name + ", simulated";
-    one.file = &flown;
+    one.file = &simulated;
     FallChoice other;
     other.name = name + ", solved";
     other.file = &solved;
@@ -342,15 +342,15 @@ void Folder::add_falls(const ProgressCall& progress) {
                 return;
             }
             const FallRecord record = read_fall_record(path_ / planned.name);
-            const SimulatedFall flown = simulate_fall(body_, record);
-            const double difference = std::abs(flown.flown.descent_speed / flown.solved.descent_speed - 1.0);
+            const SimulatedFall fall = simulate_fall(body_, record);
+            const double difference =
+                std::abs(fall.simulated.descent_speed / fall.solved.descent_speed - 1.0);
             farthest = std::max(farthest, std::isfinite(difference) ? difference : 1.0);
-            oscillations.add(flown);
-            worst = {std::max(worst.force, flown.balance.force),
-                     std::max(worst.moment, flown.balance.moment)};
+            oscillations.add(fall);
+            worst = {std::max(worst.force, fall.balance.force), std::max(worst.moment, fall.balance.moment)};
             rows.push_back(
-                {planned.name, metrics_of(flown.solved), metrics_of(flown.flown), per_cent(difference),
-                 fmt::format("{}, {}", per_cent(flown.balance.force), per_cent(flown.balance.moment)),
+                {planned.name, metrics_of(fall.solved), metrics_of(fall.simulated), per_cent(difference),
+                 fmt::format("{}, {}", per_cent(fall.balance.force), per_cent(fall.balance.moment)),
                  in_plain_digits(record.fall.mass / record.fall.volume * record.fall.fluid_density)});
             pictures.push_back(fall_picture(body_, record));
         });

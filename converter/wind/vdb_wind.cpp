@@ -173,14 +173,14 @@ WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const Vd
     // The files are read twice, so that memory does not grow with their number.
     const auto total = 2.0 * static_cast<double>(files.size());
     double done = 0.0;
-    const auto tell = [&] {
+    const auto report = [&] {
         if (options.progress) options.progress(++done, total);
     };
     for (const std::filesystem::path& file : files) {
         const VdbVelocity velocity(file, options);
         if (!voxel) voxel = velocity.voxel_size();
         velocity.widen(box);
-        tell();
+        report();
     }
     if (box.isEmpty()) throw error(files.front(), "has no active voxel, nor has another of the files");
     const openvdb::Vec3d size = z_up(*voxel, options.y_up);
@@ -190,7 +190,7 @@ WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const Vd
     grid.velocities.reserve(grid.size());
     for (const std::filesystem::path& file : files) {
         append(VdbVelocity(file, options), file, grid);
-        tell();
+        report();
     }
     grid.source = fmt::format("{}{} by OpenVDB {}", files.front().filename().string(),
                               files.size() > 1 ? fmt::format(" and {} more", files.size() - 1) : "",

@@ -38,10 +38,10 @@ struct Closures {
 struct BakeQuality {
     std::string name;
     std::vector<FlowMesh> meshes;  ///< for the loads of a compact body; a long one gets a wider box
-    /// As many meshes for k and epsilon; none where these are of the loads' cases.
+    /// Meshes for k and epsilon, as many as `meshes`; empty where the loads' cases give k and epsilon too.
     std::vector<FlowMesh> turbulence_meshes;
-    std::vector<FlowMesh>
-        fall_meshes;  ///< the separate mesh of the falls, where they have one (add_falls), as of validate
+    /// The separate mesh of the falls, where they have one (add_falls), as those of samara validate do.
+    std::vector<FlowMesh> fall_meshes;
     Closure loads_closure = Closure::k_epsilon;  ///< for loads, where the flow is not laminar
     Closure fall_closure = Closure::k_epsilon;   ///< for falls, where the flow is not laminar
     int least_subdivisions = 2;                  ///< of the map of solved directions, at any cost

@@ -60,7 +60,7 @@ class FolderInspection {
 
   private:
     [[nodiscard]] Error error(const fs::path& file, const std::string& what) const {
-        return Error(fmt::format("{}: {}; remove it, or the whole of {}, which is then solved anew",
+        return Error(fmt::format("{}: {}; remove it, or the whole of {}, which is then solved again",
                                  file.string(), what, folder_.string()));
     }
 
@@ -142,7 +142,7 @@ class FolderInspection {
         try {
             require_foam_data(file);
         } catch (const Error& reason) {
-            throw Error(fmt::format("{}; remove the folder {}, which is then solved anew", reason.what(),
+            throw Error(fmt::format("{}; remove the folder {}, which is then solved again", reason.what(),
                                     folder_.string()));
         }
     }
@@ -180,7 +180,7 @@ void require_known_files(const fs::path& cases, const InputFolders& planned) {
         if (entry_type == fs::file_type::regular && (is_one_of(name, files_beside) || is_temporary(name)))
             continue;
         throw Error(fmt::format(
-            "{}: is {}; move it out of {}, or remove that folder, whose cases are then solved anew",
+            "{}: is {}; move it out of {}, or remove that folder, whose cases are then solved again",
             entry.path().string(),
             entry_type == fs::file_type::symlink ? "a link, which is not followed here"
                                                  : "nothing that samara makes here",

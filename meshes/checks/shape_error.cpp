@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "meshes/checks/triangle_tree.hpp"
-#include "meshes/checks/volume_moments.hpp"
 #include "samara/core/base/numbers.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/curved_surface.hpp"

@@ -1,6 +1,6 @@
-#include "meshes/checks/volume_moments.hpp"
-
 #include <array>
+
+#include "meshes/checks/shape_error.hpp"
 
 namespace samara {
 namespace {

@@ -1,11 +1,10 @@
-#include "meshes/reading/script_check.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
 
 #include <fmt/format.h>
 
+#include "meshes/reading/shape_reader.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "samara/core/surface/surface.hpp"
@@ -56,5 +58,12 @@ Surface confined_surface(const std::filesystem::path& shape, double time_limit,
 /// Reads the faces of a PLY file (text, or binary of either byte order) or an OFF file, cut into triangles;
 /// colours, normals and the like are dropped (CGAL). Throws Error where it cannot be read.
 Surface read_polygon_file(const std::filesystem::path& file, ShapeFormat format);
+
+/// Throws Error, "LABEL: line N: ...", at the first statement of a gmsh script (.geo) that a shape does not
+/// need: one that starts programs (SystemCall, NonBlockingSystemCall, System, OnelabRun, fields of the type
+/// ExternalProcess), writes files or makes folders (Save, Print, Printf > and >>, CreateDir), sends data
+/// (SendToServer) or ends gmsh (Exit). The check is for a clear message: what it overlooks, for example in
+/// included files, the process that reads the script is not permitted to do (confined_surface).
+void require_shape_script(std::string_view script, const std::string& label);
 
 }  // namespace samara

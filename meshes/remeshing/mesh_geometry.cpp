@@ -11,7 +11,6 @@
 #include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
-#include "meshes/reading/script_check.hpp"
 #include "meshes/reading/shape_reader.hpp"
 #include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/remesh.hpp"

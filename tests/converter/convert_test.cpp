@@ -234,7 +234,7 @@ TEST(ConvertFalls, IdentifiesTheCoefficientsOfTheFallsThatAreSolved) {
     FreeFall fall = test::oblique_fall(with_tables, 10.0);
     const MotionParameters parameters(with_tables);
     const DynamicCoefficients expected = parameters.coefficients(parameters.expected());
-    write_fall(folder, test::flown_record(with_tables, fall, expected));
+    write_fall(folder, test::record_of(with_tables, fall, expected));
     plan_falls(folder, {{{"name", "fall_00"}, {"mesh", "mesh"}}, {{"name", "fall_01"}, {"mesh", "mesh"}}});
     folder.write("fall_01/failed.json", R"({"reason": "the solver stopped"})");
     double share = 0.0;

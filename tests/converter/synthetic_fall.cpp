@@ -51,7 +51,7 @@ FallSample sample_of(const FreeFall& fall, double time, const BodyState& state) 
     return sample;
 }
 
-FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients) {
+FallRecord record_of(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients) {
     ImmersedBody immersed = falling_body(body, fall);
     immersed.dynamic = coefficients;
     prepare(immersed);

@@ -15,7 +15,7 @@ FreeFall oblique_fall(const Body& body, double duration);
 
 /// Returns a record of the fall as simulated by the runtime with the coefficients, with steps a fifth as
 /// long. The loads are not filled in.
-FallRecord flown_record(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients);
+FallRecord record_of(const Body& body, const FreeFall& fall, const DynamicCoefficients& coefficients);
 
 /// One sample of a fall in the units and axes of its case: states_of() of converter/falls/fall_record.hpp the
 /// other way.

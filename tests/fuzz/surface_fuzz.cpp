@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "harness.hpp"
+#include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
-#include "meshes/checks/volume_moments.hpp"
-#include "meshes/reading/script_check.hpp"
+#include "meshes/reading/shape_reader.hpp"
 #include "samara/core/files/folders.hpp"
 #include "samara/core/surface/mended_surface.hpp"
 #include "samara/core/surface/obj_file.hpp"

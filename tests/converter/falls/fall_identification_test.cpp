@@ -65,7 +65,7 @@ class FallIdentification : public testing::Test {
     static void SetUpTestSuite() {
         body_ = test::ellipsoid_with_tables();
         true_ = true_coefficients(body_);
-        record_ = test::flown_record(body_, test::oblique_fall(body_, 30.0), true_);
+        record_ = test::record_of(body_, test::oblique_fall(body_, 30.0), true_);
         found_ = identify_motion(body_, {record_});
     }
 
@@ -124,23 +124,23 @@ TEST_F(FallIdentification, PredictsTheFallItIsFrom) {
     EXPECT_LT(found_.prediction_error, 0.01);
     EXPECT_GT(found_.segments, 50);
     ASSERT_EQ(found_.falls.size(), 1u);
-    const auto& [name, solved, flown, balance] = found_.falls.front();
+    const auto& [name, solved, simulated, balance] = found_.falls.front();
     EXPECT_EQ(name, "fall_00");
     const double density = record_.fall.mass / record_.fall.volume;
     EXPECT_DOUBLE_EQ(found_.coefficients.densities.lowest, density);
     EXPECT_DOUBLE_EQ(found_.coefficients.densities.highest, density);
-    EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.02 * solved.descent_speed);
-    EXPECT_NEAR(flown.mean_inclination, solved.mean_inclination, 0.02 * solved.mean_inclination);
-    EXPECT_NEAR(flown.inclination_amplitude, solved.inclination_amplitude,
+    EXPECT_NEAR(simulated.descent_speed, solved.descent_speed, 0.02 * solved.descent_speed);
+    EXPECT_NEAR(simulated.mean_inclination, solved.mean_inclination, 0.02 * solved.mean_inclination);
+    EXPECT_NEAR(simulated.inclination_amplitude, solved.inclination_amplitude,
                 0.02 * solved.inclination_amplitude);
-    EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.02 * solved.rms_angular_speed);
-    ASSERT_TRUE(solved.frequency && flown.frequency);
-    EXPECT_NEAR(*flown.frequency, *solved.frequency, 0.02 * *solved.frequency);
-    EXPECT_EQ(flown.regime, solved.regime);
+    EXPECT_NEAR(simulated.rms_angular_speed, solved.rms_angular_speed, 0.02 * solved.rms_angular_speed);
+    ASSERT_TRUE(solved.frequency && simulated.frequency);
+    EXPECT_NEAR(*simulated.frequency, *solved.frequency, 0.02 * *solved.frequency);
+    EXPECT_EQ(simulated.regime, solved.regime);
 }
 
 TEST_F(FallIdentification, PredictsWorseWithTheDefaults) {
-    const FallRecord by_default = test::flown_record(
+    const FallRecord by_default = test::record_of(
         body_, record_.fall, MotionParameters(body_).coefficients(MotionParameters(body_).expected()));
     double largest = 0.0;
     for (std::size_t i = 0; i < 300; ++i) {
@@ -209,9 +209,9 @@ TEST_F(FallIdentification, FliesAFallFromTheSpeedItHasAfterTheFirstInstant) {
     fall.angular_velocity = {0.5, 4.0, -2.0};
     Body body = body_;
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
-    const auto& [name, solved, flown, balance] = simulate_fall(body, test::flown_record(body, fall, true_));
-    EXPECT_LT((flown.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
-    EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
+    const auto& [name, solved, simulated, balance] = simulate_fall(body, test::record_of(body, fall, true_));
+    EXPECT_LT((simulated.mean_velocity - solved.mean_velocity).norm(), 0.01 * solved.mean_velocity.norm());
+    EXPECT_NEAR(simulated.rms_angular_speed, solved.rms_angular_speed, 0.01 * solved.rms_angular_speed);
 }
 
 TEST_F(FallIdentification, ShowsAFallAndItsSimulationWithGravityDownwards) {
@@ -219,15 +219,16 @@ TEST_F(FallIdentification, ShowsAFallAndItsSimulationWithGravityDownwards) {
     body.dynamic = {.values = true_, .standard_errors = {}, .densities = {}};
     const FallMotions motions = fall_motions(body, record_);
     const SimulatedFall metrics = simulate_fall(body, record_);
-    EXPECT_EQ(motions.solved.times, motions.flown.times);
-    for (const Motion* motion : {&motions.solved, &motions.flown}) {
+    EXPECT_EQ(motions.solved.times, motions.simulated.times);
+    for (const Motion* motion : {&motions.solved, &motions.simulated}) {
         EXPECT_LT((motion->gravity.normalized() + Vector3d::UnitZ()).norm(), 1e-12);
         EXPECT_EQ(motion->bodies[0].surface.corners, body.surface.corners);
         EXPECT_LT(motion->bodies[0].poses.back().position.z(), 0.0);
     }
-    const Measures measures = measure(motions.flown, motions.flown.bodies[0]);
-    EXPECT_NEAR(measures.descent_speed, metrics.flown.descent_speed, 1e-9 * metrics.flown.descent_speed);
-    EXPECT_NEAR(measures.inclination_amplitude, metrics.flown.inclination_amplitude, 1e-9);
+    const Measures measures = measure(motions.simulated, motions.simulated.bodies[0]);
+    EXPECT_NEAR(measures.descent_speed, metrics.simulated.descent_speed,
+                1e-9 * metrics.simulated.descent_speed);
+    EXPECT_NEAR(measures.inclination_amplitude, metrics.simulated.inclination_amplitude, 1e-9);
 }
 
 TEST_F(FallIdentification, LeavesOutTheTermsThatItIsToldTo) {
@@ -254,12 +255,12 @@ TEST_F(FallIdentification, LeavesOutAStretchOfTheFallAndFindsTheSame) {
 TEST_F(FallIdentification, KeepsTheMetricsOfTheWholeFallWhereTheModelCannotFollowIt) {
     const Identification without = identify_motion(body_, {record_}, {.terms = {"rotational drag"}});
     EXPECT_GT(without.prediction_error, 5.0 * found_.prediction_error);
-    const auto& [name, solved, flown, balance] = without.falls.front();
+    const auto& [name, solved, simulated, balance] = without.falls.front();
     // The descent speed is within fitted_miss, the others within half of it.
-    EXPECT_NEAR(flown.descent_speed, solved.descent_speed, 0.05 * solved.descent_speed);
-    EXPECT_NEAR(flown.inclination_amplitude, solved.inclination_amplitude,
+    EXPECT_NEAR(simulated.descent_speed, solved.descent_speed, 0.05 * solved.descent_speed);
+    EXPECT_NEAR(simulated.inclination_amplitude, solved.inclination_amplitude,
                 0.125 * solved.inclination_amplitude);
-    EXPECT_NEAR(flown.rms_angular_speed, solved.rms_angular_speed, 0.125 * solved.rms_angular_speed);
+    EXPECT_NEAR(simulated.rms_angular_speed, solved.rms_angular_speed, 0.125 * solved.rms_angular_speed);
 }
 
 TEST_F(FallIdentification, RejectsToIdentifyFromNothing) {

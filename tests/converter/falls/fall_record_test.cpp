@@ -154,7 +154,7 @@ TEST_F(FallRecordFiles, AreRejectedWhereAnyIsCutShortEmptiedOrBeyondReason) {
 }
 
 // A rigid body under known loads, in steps of 0.005.
-struct Motion {
+struct DrivenMotion {
     FreeFall fall;
     std::function<Vector3d(double)> force = [](double) { return Vector3d::Zero().eval(); };
     /// The angular acceleration by rotation and angular velocity.
@@ -163,7 +163,7 @@ struct Motion {
 };
 
 // Integrates with steps a hundred times as short.
-FallRecord solved(const Motion& motion, const Vector3d& angular_velocity) {
+FallRecord solved(const DrivenMotion& motion, const Vector3d& angular_velocity) {
     constexpr int substeps = 100;
     constexpr double step = 0.005;
     FallRecord record;
@@ -217,7 +217,7 @@ auto eulers_equations(const FreeFall& fall, double share,
 const Vector3d tumble(1.5, 0.7, -2.0);
 
 TEST(FallBalance, IsZeroForARigidBodyUnderTheLoads) {
-    Motion motion;
+    DrivenMotion motion;
     motion.fall = uneven_body();
     motion.force = [](double time) { return Vector3d(std::sin(time), 0.3, std::cos(2.0 * time)); };
     motion.angular_acceleration = eulers_equations(motion.fall, 1.0, motion.moment);
@@ -227,7 +227,7 @@ TEST(FallBalance, IsZeroForARigidBodyUnderTheLoads) {
 }
 
 TEST(FallBalance, HoldsTheMomentOfBuoyancyOnABodyHungOffItsCentroid) {
-    Motion motion;
+    DrivenMotion motion;
     motion.fall = uneven_body();
     motion.fall.center_of_mass = {0.02, 0.05, -0.1};
     // Buoyancy at the centroid: (-R c) x (-V g).
@@ -239,7 +239,7 @@ TEST(FallBalance, HoldsTheMomentOfBuoyancyOnABodyHungOffItsCentroid) {
 }
 
 TEST(FallBalance, ShowsADroppedGyroscopicTermWhole) {
-    Motion motion;
+    DrivenMotion motion;
     motion.fall = uneven_body();
     motion.angular_acceleration = eulers_equations(motion.fall, 0.0, motion.moment);
     const FallBalance balance = balance_of(solved(motion, tumble));
@@ -248,7 +248,7 @@ TEST(FallBalance, ShowsADroppedGyroscopicTermWhole) {
 }
 
 TEST(FallBalance, ShowsAForceThatIsOffByAsMuch) {
-    Motion motion;
+    DrivenMotion motion;
     motion.fall = uneven_body();
     motion.force = [](double time) { return Vector3d(4.0 * std::sin(3.0 * time), 0.0, 0.0); };
     motion.angular_acceleration = eulers_equations(motion.fall, 1.0, motion.moment);
@@ -258,7 +258,7 @@ TEST(FallBalance, ShowsAForceThatIsOffByAsMuch) {
 }
 
 TEST(FallBalance, DoesNotTakeNoiseOnABodyThatDoesNotRotateForAnError) {
-    Motion motion;
+    DrivenMotion motion;
     motion.fall = uneven_body();
     motion.fall.principal_moments.setConstant(0.05);
     motion.force = [weight = Vector3d((0.6 - 0.5) * motion.fall.gravity)](double) {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "meshes/checks/volume_moments.hpp"
+#include "meshes/checks/shape_error.hpp"
 #include "meshes/make_body.hpp"
 #include "meshes/shape_files.hpp"
 #include "samara/core/surface/surface_check.hpp"

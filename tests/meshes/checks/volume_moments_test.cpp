@@ -1,10 +1,9 @@
-#include "meshes/checks/volume_moments.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "meshes/checks/shape_error.hpp"
 #include "samara/core/surface/curved_surface.hpp"
 #include "support/test_shapes.hpp"
 

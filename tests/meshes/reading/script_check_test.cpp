@@ -1,8 +1,7 @@
-#include "meshes/reading/script_check.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshes/reading/shape_reader.hpp"
 #include "paths.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "support/expect_error.hpp"

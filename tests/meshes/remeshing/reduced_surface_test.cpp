@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/checks/shape_error.hpp"
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/checks/triangle_tree.hpp"
-#include "meshes/checks/volume_moments.hpp"
 #include "meshes/remeshing/remesh.hpp"
 #include "support/test_shapes.hpp"
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "meshes/checks/sound_surface.hpp"
+#include "meshes/remeshing/mesh_size_field.hpp"
 #include "meshes/remeshing/remesh.hpp"
+#include "meshes/remeshing/smooth_shape.hpp"
 #include "samara/core/surface/creases.hpp"
 #include "samara/core/surface/surface_edges.hpp"
 #include "support/test_shapes.hpp"
