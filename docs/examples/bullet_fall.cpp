@@ -50,9 +50,9 @@ struct Host {
 // ---- The coupling --------------------------------------------------------------------------------------
 
 Six velocity_of(const btRigidBody& body) {
-    const btVector3& turning = body.getAngularVelocity();
-    const btVector3& moving = body.getLinearVelocity();
-    return {turning.x(), turning.y(), turning.z(), moving.x(), moving.y(), moving.z()};
+    const btVector3& angular = body.getAngularVelocity();
+    const btVector3& linear = body.getLinearVelocity();
+    return {angular.x(), angular.y(), angular.z(), linear.x(), linear.y(), linear.z()};
 }
 
 samara_pose pose_of(const Link& link) {
@@ -139,8 +139,8 @@ void sample_fluid(Host& host, std::size_t number) {
     }
     set_inertia(body, whole);
 
-    const btVector3 turning = body.getAngularVelocity();
-    const btVector3 gyroscopic = turning.cross(inertia * turning);
+    const btVector3 angular = body.getAngularVelocity();
+    const btVector3 gyroscopic = angular.cross(inertia * angular);
     Six impulse = momentum_of(body, link.by_joints);
     for (std::size_t row = 0; row < 6; ++row) {
         impulse[row] += host.step * (load.wrench[row] - (row < 3 ? gyroscopic[int(row)] : 0.0));

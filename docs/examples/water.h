@@ -41,21 +41,22 @@ static samara_simulation* water(const samara_body* body, double step, int turbul
     return simulation;
 }
 
-/* How far a single body is from samara's own flight of it, over the way, at a time. */
+/* How far a single body is from samara's own motion of it at a time, relative to the distance from the start.
+ */
 static double off_from_own_flight(const samara_body* body, double step, double density, double time,
                                   const double position[3]) {
     samara_simulation* own = water(body, step, 0, &density, 1);
     samara_pose flown;
-    double off = 0.0, way = 0.0;
+    double off = 0.0, distance = 0.0;
     int i;
     check(samara_advance_to(own, time, error, sizeof error));
     check(samara_get_poses(own, 0, 1, &flown, 0, error, sizeof error));
     samara_simulation_free(own);
     for (i = 0; i < 3; ++i) {
         off += pow(position[i] - flown.position[i], 2);
-        way += pow(flown.position[i], 2);
+        distance += pow(flown.position[i], 2);
     }
-    return sqrt(off / way);
+    return sqrt(off / distance);
 }
 
 #endif

@@ -79,7 +79,7 @@ void note(const std::string& text) {
     print_note("{}: note: {}\n", program, text);
 }
 
-/// Says before the flight where figures of the bodies make the motion doubtful.
+/// Notes before the simulation which values of the bodies make the motion uncertain.
 void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loaded) {
     constexpr double doubtful = 0.2;
     BodyNotes notes(program);
@@ -146,7 +146,7 @@ PreparedScene prepare_with_progress(Scene scene, const Preparation& preparation)
     });
 }
 
-/// Says what a large run will take, and refuses one that the machine has not the room for.
+/// Says what a large run will take, and throws Error where the machine has no room for it.
 void judge_needs(const RunNeeds& needs, const Request& request) {
     constexpr double large = 1e9;
     if (std::max(needs.memory, needs.disk) > large) note("takes about " + in_words(needs));
@@ -281,7 +281,7 @@ int simulate_command(int argc, const char* const* argv) {
     arguments.footer(
         "--json: bodies (a list with name, mean_velocity, mean_descent_speed, final_position, regime, and "
         "the\n"
-        "figures of the ensemble of copies and runs: docs/output.md), steps, seconds, nanoseconds_per_step.\n"
+        "metrics of the ensemble of copies and runs: docs/output.md), steps, seconds, nanoseconds_per_step.\n"
         "Speeds in m/s over the last two thirds of the fall, angles in radians. An interrupt (Ctrl-C) "
         "leaves\n"
         "the frames flown so far as a motion file.\n");

@@ -127,7 +127,7 @@ std::uintmax_t expected_size(const Motion& motion) {
 }  // namespace
 
 MotionWriter::MotionWriter(Hdf5Writer& file, const Motion& motion) : file_(file), motion_(motion) {
-    file.attribute("/", "motion_format_version", motion_format_version);
+    file.attribute("/", "format_version", motion_format_version);
     file.attribute("/", "samara_version", std::string_view(version));
     file.attribute("/", "kind", std::string_view("motion"));
     file.attribute("/", "frame_rate", motion.frame_rate);

@@ -41,7 +41,7 @@ FlownMotion read(const std::filesystem::path& file) {
         file);
 }
 
-/// Does what writes a file; its Error is a fault of the file.
+/// Runs work that writes a file; its Error becomes a RaisedFileError.
 template <typename Work>
 void to_file(const Work& work) {
     try {
@@ -307,12 +307,12 @@ void bind_body_motion(py::module_& module) {
             },
             "Numbers of vertices, anticlockwise from outside, shape (m, 3).")
         .def("measure", &measured, py::arg("run") = 0, py::arg("copy") = 0, py::arg("window") = py::none(),
-             "The figures of one fall as a dict in SI units and radians: descent_speed, frequency, "
+             "The metrics of one fall as a dict in SI units and radians: descent_speed, frequency, "
              "inclination_amplitude, "
              "rms_angular_speed, regime, ... over `window`, (begin, end) in s; by default the last two "
              "thirds of the fall.")
         .def("ensemble", &ensemble,
-             "The figures of all runs and copies together: means, deviations, standard errors, regimes, "
+             "The metrics of all runs and copies together: means, deviations, standard errors, regimes, "
              "path_spread, landing.")
         .def("__repr__", [](const BodyOfMotion& body) {
             return fmt::format("<samara.BodyMotion {}: {} runs, {} frames, {} copies>", body.body().name,

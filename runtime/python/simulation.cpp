@@ -80,7 +80,7 @@ class LiveSimulation {
         const std::size_t index = index_of(name, run, copy);
         const GivenPush given = {"force", Vector3d(numbers_of<3>(force, "force").data()),
                                  vector_of(point, "point"), vector_of(moment, "moment")};
-        change_flight([&] { pushes_.emplace_back(index, wrench_of(index, given)); });
+        change_simulation([&] { pushes_.emplace_back(index, wrench_of(index, given)); });
     }
 
     void add_impulse(const std::string& name, const py::object& impulse, const py::object& point,
@@ -88,19 +88,19 @@ class LiveSimulation {
         const std::size_t index = index_of(name, run, copy);
         const GivenPush given = {"impulse", Vector3d(numbers_of<3>(impulse, "impulse").data()),
                                  vector_of(point, "point"), vector_of(angular_impulse, "angular_impulse")};
-        change_flight([&] { simulation_->add_impulse(index, wrench_of(index, given)); });
+        change_simulation([&] { simulation_->add_impulse(index, wrench_of(index, given)); });
     }
 
     void remove(const std::string& name, int run, int copy) {
         const std::size_t index = index_of(name, run, copy);
-        change_flight([&] { simulation_->remove(index); });
+        change_simulation([&] { simulation_->remove(index); });
     }
 
     [[nodiscard]] std::tuple<Vector6d, Matrix6d, Matrix6d> fluid_load(const std::string& name, int run,
                                                                       int copy) {
         const std::size_t index = index_of(name, run, copy);
         FluidLoad load;
-        with_flight([&] {
+        with_simulation([&] {
             require_there(index);
             load = simulation_->fluid_load(index);
         });
@@ -111,7 +111,7 @@ class LiveSimulation {
                                                                          int copy) {
         const std::size_t index = index_of(name, run, copy);
         std::tuple<double, Vector3d, Matrix3d> own;
-        with_flight([&] {
+        with_simulation([&] {
             own = {simulation_->mass(index), simulation_->center_of_mass(index), simulation_->inertia(index)};
         });
         return own;
@@ -121,12 +121,12 @@ class LiveSimulation {
         if (height && !(std::abs(*height) <= largest_number)) {
             throw RaisedInputError("height: give a finite number of metres, 1e30 at most, or None");
         }
-        change_flight([&] { simulation_->set_ground(height); });
+        change_simulation([&] { simulation_->set_ground(height); });
     }
 
     void set_wind(const py::dict& keys) {
         const toml::table document = parse_toml(toml_text(keys, "wind"), "wind");
-        change_flight([&] {
+        change_simulation([&] {
             TomlTable table(document, "wind", "the wind");
             const std::lock_guard lock(hdf5_mutex());  // of a wind file, which need not last
             constexpr double no_end = -std::numeric_limits<double>::infinity();
@@ -136,17 +136,17 @@ class LiveSimulation {
     }
 
     void watch_contacts(bool watch) {
-        change_flight([&] { simulation_->watch_contacts(watch); });
+        change_simulation([&] { simulation_->watch_contacts(watch); });
     }
 
     [[nodiscard]] py::dict take_contacts(const std::string& name) {
         const Group& group = group_named(name);
         const std::size_t count = static_cast<std::size_t>(runs_) * static_cast<std::size_t>(group.copies);
-        std::vector<ContactRecord> met(count);
+        std::vector<ContactRecord> records(count);
         std::vector<bool> rests(count);
-        change_flight([&] {
+        change_simulation([&] {
             for (std::size_t i = 0; i < count; ++i) {
-                met[i] = simulation_->take_contacts(group.first + i);
+                records[i] = simulation_->take_contacts(group.first + i);
                 rests[i] = simulation_->is_at_rest(group.first + i);
             }
         });
@@ -160,13 +160,13 @@ class LiveSimulation {
         py::array_t<int> body(shape);
         py::array_t<bool> at_rest(shape);
         for (std::size_t i = 0; i < count; ++i) {
-            std::copy_n(met[i].impulse.data(), 3, impulse.mutable_data() + 3 * i);
-            std::copy_n(met[i].point.data(), 3, point.mutable_data() + 3 * i);
-            std::copy_n(met[i].normal.data(), 3, normal.mutable_data() + 3 * i);
-            strongest.mutable_data()[i] = met[i].strongest;
-            time.mutable_data()[i] = met[i].time;
-            obstacle.mutable_data()[i] = met[i].obstacle;
-            body.mutable_data()[i] = met[i].body;
+            std::copy_n(records[i].impulse.data(), 3, impulse.mutable_data() + 3 * i);
+            std::copy_n(records[i].point.data(), 3, point.mutable_data() + 3 * i);
+            std::copy_n(records[i].normal.data(), 3, normal.mutable_data() + 3 * i);
+            strongest.mutable_data()[i] = records[i].strongest;
+            time.mutable_data()[i] = records[i].time;
+            obstacle.mutable_data()[i] = records[i].obstacle;
+            body.mutable_data()[i] = records[i].body;
             at_rest.mutable_data()[i] = rests[i];
         }
         py::dict result;
@@ -185,7 +185,7 @@ class LiveSimulation {
         const Group& group = group_named(name);
         Poses result{{}, runs_, group.copies};
         result.poses.resize(static_cast<std::size_t>(runs_) * static_cast<std::size_t>(group.copies));
-        with_flight([&] { simulation_->poses(group.first, result.poses.size(), result.poses.data()); });
+        with_simulation([&] { simulation_->poses(group.first, result.poses.size(), result.poses.data()); });
         return result;
     }
 
@@ -194,7 +194,7 @@ class LiveSimulation {
                   const py::object& angular_velocity) {
         const std::size_t index = index_of(name, run, copy);
         Pose pose;
-        with_flight([&] { pose = simulation_->pose(index); });
+        with_simulation([&] { pose = simulation_->pose(index); });
         const auto assign = [](Vector3d& target, const py::object& given, const char* what) {
             target = vector_of(given, what).value_or(target);
             if (!(target.cwiseAbs().maxCoeff() <= largest_number) || !target.allFinite()) {
@@ -211,25 +211,25 @@ class LiveSimulation {
             }
             pose.orientation.normalize();
         }
-        change_flight([&] { simulation_->set_pose(index, pose); });
+        change_simulation([&] { simulation_->set_pose(index, pose); });
     }
 
     [[nodiscard]] py::bytes state() {
         std::string bytes;
-        with_flight([&] { bytes = simulation_->state(); });
+        with_simulation([&] { bytes = simulation_->state(); });
         return bytes;
     }
     void set_state(const std::string& bytes) {
-        change_flight([&] { simulation_->set_state(bytes); });
+        change_simulation([&] { simulation_->set_state(bytes); });
     }
     [[nodiscard]] double time() {
         double time = 0.0;
-        with_flight([&] { time = simulation_->time(); });
+        with_simulation([&] { time = simulation_->time(); });
         return time;
     }
     [[nodiscard]] std::uint64_t steps() {
         std::uint64_t steps = 0;
-        with_flight([&] { steps = simulation_->steps(); });
+        with_simulation([&] { steps = simulation_->steps(); });
         return steps;
     }
     [[nodiscard]] std::vector<std::string> names() const {
@@ -301,16 +301,17 @@ class LiveSimulation {
     }
 
     template <typename Work>
-    void with_flight(const Work& work) {
+    void with_simulation(const Work& work) {
         const py::gil_scoped_release others_go_on;
         const std::lock_guard lock(mutex_);
         work();
     }
 
-    /// The same for what changes it, which a progress function of advance() may not.
+    /// Does work that changes the simulation, as with_simulation(). Throws Error from a progress function of
+    /// advance().
     template <typename Work>
-    void change_flight(const Work& work) {
-        with_flight([&] {
+    void change_simulation(const Work& work) {
+        with_simulation([&] {
             require_no_advance();
             work();
         });
@@ -318,10 +319,10 @@ class LiveSimulation {
 
     void require_no_advance() const {
         if (!advancing_) return;
-        throw Error("the flight advances: a progress function may look at it, but not change it");
+        throw Error("the simulation advances: a progress function may look at it, but not change it");
     }
 
-    /// For as long as it lives, the flight is in advance().
+    /// Marks the simulation as advancing for as long as it lives..
     struct Advancing {
         explicit Advancing(bool& flag) : flag_(flag) { flag_ = true; }
         ~Advancing() { flag_ = false; }
@@ -414,10 +415,12 @@ void bind_simulation(py::module_& module) {
         .def("watch_contacts", &LiveSimulation::watch_contacts, py::arg("watch"),
              "Notes from now on what bodies meet of ground, obstacles and each other, or no longer.")
         .def("take_contacts", &LiveSimulation::take_contacts, py::arg("name"),
-             "What a body's copies met since they were last asked, arrays (runs, copies, ...): impulse (N s, "
-             "world axes, the sum), strongest (N s, of one point in one step; 0: nothing was met) with its "
+             "The contacts of a body's copies since they were last taken, arrays (runs, copies, ...): "
+             "impulse (N s, "
+             "world axes, the sum), strongest (N s, of one point in one step; 0: there was none) with its "
              "point (m), normal, time (s), obstacle (its number; -1: level ground, or a body) and body (the "
-             "number of the one that was met, counted over the scene's bodies, run by run and copy by copy; "
+             "number of the body that was touched, counted over the scene's bodies, run by run and copy by "
+             "copy; "
              "-1: "
              "none), and at_rest.")
         .def("state", &LiveSimulation::state, "All that the rest of the flight depends on, as bytes.")

@@ -51,7 +51,7 @@ def _known_obstacles(scene):
         _obstacles[scene.name] = (obstacles.frame, obstacles.taken_at(depsgraph))
         _stale.discard(scene.name)
     elif known is None:
-        raise SamaraError("an obstacle moves, and its way is not known yet; click Live again")
+        raise SamaraError("an obstacle moves, and its path is not known yet; click Live again")
     else:
         note_change(scene)
     return _obstacles[scene.name][1]

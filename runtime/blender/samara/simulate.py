@@ -44,11 +44,11 @@ def _let_go(scene, o, surroundings):
     w, *axis = rotation @ before_rotation.conjugated()
     length = math.hypot(*axis)
     angle = 2.0 * math.atan2(math.copysign(length, w), abs(w))
-    turning = [x / length * angle / seconds if length > 0.0 else 0.0 for x in axis]
-    return request_of(o, surroundings, (frames, list(velocity), turning))
+    angular = [x / length * angle / seconds if length > 0.0 else 0.0 for x in axis]
+    return request_of(o, surroundings, (frames, list(velocity), angular))
 
 
-class _KeyedWay:
+class _KeyedPath:
     """The poses by keys of an object: until its release, and again from its return on."""
 
     def __init__(self):
@@ -61,8 +61,8 @@ class _KeyedWay:
     def taken_up(self, frames_before):
         """Returns the pose that reaches that of the return at constant velocity."""
         location, rotation = self.after[0]
-        moving, turning = self.moving
-        turn = Quaternion(turning.normalized(), -frames_before * turning.length)
+        moving, angular = self.moving
+        turn = Quaternion(angular.normalized(), -frames_before * angular.length)
         return location - frames_before * moving, turn @ rotation
 
     def put_into(self, locations, rotations):
@@ -93,43 +93,43 @@ def _return_frame(o, surroundings):
     return body.returns if body.returns < surroundings.frames else None
 
 
-def _keyed_ways(scene, objects, surroundings):
+def _keyed_paths(scene, objects, surroundings):
     """Returns the poses by keys of the objects that follow them at times, by name. Leaves the scene at another frame."""
-    ways = {}
+    paths = {}
     for o in objects:
         returns = _return_frame(o, surroundings)
         if led_frames(o) == 0 and returns is None:
             continue
-        way = ways[o.name] = _KeyedWay()
+        path = paths[o.name] = _KeyedPath()
         if returns is not None:
-            way.returns = returns
-            way.blend = min(o.samara.return_blend, returns - led_frames(o))
-    keyed = [o for o in objects if o.name in ways]
+            path.returns = returns
+            path.blend = min(o.samara.return_blend, returns - led_frames(o))
+    keyed = [o for o in objects if o.name in paths]
     for i in range(surroundings.frames if keyed else 0):
         here = [
             o
             for o in keyed
-            if i < led_frames(o) or (ways[o.name].returns is not None and i >= ways[o.name].returns)
+            if i < led_frames(o) or (paths[o.name].returns is not None and i >= paths[o.name].returns)
         ]
         if not here:
             continue
         scene.frame_set(scene.frame_start + i)
         for o in here:
             location, rotation, _ = o.matrix_basis.decompose()
-            way = ways[o.name]
-            (way.before if i < led_frames(o) else way.after).append((location.copy(), rotation.copy()))
+            path = paths[o.name]
+            (path.before if i < led_frames(o) else path.after).append((location.copy(), rotation.copy()))
     for o in keyed:
-        way = ways[o.name]
-        if way.returns is None:
+        path = paths[o.name]
+        if path.returns is None:
             continue
-        _set_frame(scene, scene.frame_start + way.returns + _BEFORE)
+        _set_frame(scene, scene.frame_start + path.returns + _BEFORE)
         location, rotation, _ = o.matrix_basis.decompose()
-        turn = rotation @ way.after[0][1].conjugated()
+        turn = rotation @ path.after[0][1].conjugated()
         if turn.w < 0.0:
             turn.negate()
         axis, angle = turn.to_axis_angle()
-        way.moving = (location - way.after[0][0]) / _BEFORE, axis * (angle / _BEFORE)
-    return ways
+        path.moving = (location - path.after[0][0]) / _BEFORE, axis * (angle / _BEFORE)
+    return paths
 
 
 def requests_of(context, objects):
@@ -147,22 +147,22 @@ def requests_of(context, objects):
         requests = {o.name: request_of(o, surroundings) for o in objects if o not in led}
         for o in led:
             requests[o.name] = _let_go(scene, o, surroundings)
-        ways = _keyed_ways(scene, objects, surroundings)
-        return together([requests[o.name] for o in objects]), ways
+        paths = _keyed_paths(scene, objects, surroundings)
+        return together([requests[o.name] for o in objects]), paths
     finally:
         if scene.frame_current_final != now:
             _set_frame(scene, now)
 
 
-def insert_flights(context, objects, flights, ways):
+def insert_flights(context, objects, flights, paths):
     """Writes keys at every frame of the scene's range; where an object follows its keys, they are kept, one per frame."""
     scene = context.scene
     for o, flight in zip(objects, flights):
         if o.samara.live:
             live.go_off(o)
         locations, rotations = flight.locations().copy(), flight.rotations().copy()
-        if o.name in ways:
-            ways[o.name].put_into(locations, rotations)
+        if o.name in paths:
+            paths[o.name].put_into(locations, rotations)
         keyframes.insert_poses(o, scene.frame_start, locations, continuous(rotations))
     scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
 

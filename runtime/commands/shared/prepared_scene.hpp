@@ -22,7 +22,7 @@ struct Preparation {
     std::recursive_mutex* reading = nullptr;  ///< held while files are read, where it is given
 };
 
-/// A scene with all that its flight needs, for Simulation and flight_of().
+/// A scene with all that its simulation needs, for SceneSimulation and simulation_of().
 struct PreparedScene {
     Scene scene;                            ///< its models and its step are chosen
     std::vector<LoadedBody> bodies;         ///< `bodies[i]` is the body of scene.bodies[i]
@@ -32,7 +32,7 @@ struct PreparedScene {
 
 /// Makes a scene ready to fly: loads its bodies (load_scene_bodies), chooses the models of those that leave
 /// them to the advice (models = "auto"), and then the step where it is left to it (step = "auto"). Every
-/// flight of a scene goes this way, so that the same scene gives the same motion whoever flies it.
+/// simulation of a scene is prepared here, so that the same scene gives the same motion in every program.
 /// `progress`: of judging models. Throws Error where a body cannot be had, lacks tables that its models ask
 /// for, or has copies of sizes that are beyond its tables.
 PreparedScene prepare_scene(

@@ -11,7 +11,7 @@
 namespace samara {
 namespace {
 
-// The sine of the angle from which an edge is not flat_edge: meshes of a plane are far flatter, and no mesh
+// The sine of the angle from which an edge is not flat: meshes of a plane are far flatter, and no mesh
 // of a curve is so fine.
 constexpr double flat_edge = 1e-6;
 
