@@ -155,7 +155,7 @@ TEST(BlenderAddon, SimulatesBesideTheWindowAndEscapeLeavesTheSceneAsItWas) {
     const TemporaryFolder folder;
     const json found = use_addon_in_window({"simulate_in_window", rubber_file(folder)});
     EXPECT_THAT(found["pressed"].get<std::vector<std::string>>(), ElementsAre("RUNNING_MODAL"));
-    EXPECT_THAT(found["half_way"].get<std::string>(), MatchesRegex("samara simulates: [1-9][0-9]? %"));
+    EXPECT_THAT(found["halfway"].get<std::string>(), MatchesRegex("samara simulates: [1-9][0-9]? %"));
     EXPECT_EQ(found["cancelled"], "CANCELLED");
     EXPECT_EQ(found["unchanged"], true);
     EXPECT_EQ(found["finished"], "FINISHED");
@@ -168,7 +168,7 @@ TEST(BlenderAddon, BakesBesideTheWindowAndEscapeEndsTheProgram) {
     const json found =
         use_addon_in_window({"bake_in_window", SAMARA_PROGRAMS "/samara", folder.path().string()});
     EXPECT_THAT(found["pressed"].get<std::vector<std::string>>(), ElementsAre("RUNNING_MODAL"));
-    EXPECT_THAT(found["half_way"].get<std::string>(), HasSubstr("case 3 of 10"));
+    EXPECT_THAT(found["halfway"].get<std::string>(), HasSubstr("case 3 of 10"));
     EXPECT_EQ(found["while_running"], "PASS_THROUGH") << "the user goes on working";
     EXPECT_EQ(found["cancelled"], "CANCELLED");
     EXPECT_EQ(found["process_lives"], false);

@@ -143,7 +143,7 @@ TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
     const TemporaryFolder folder;
     const std::string file = rubber_file(folder);
     const json found = use_addon({"sizes", file});
-    EXPECT_EQ(found["fault"], "");
+    EXPECT_EQ(found["error"], "");
     double smallest = 2.0;
     double largest = 0.5;
     int late = 0;
@@ -189,7 +189,7 @@ TEST(BlenderAddon, FliesObjectsAtTheirScaleAndReleasesThemOneByOne) {
 TEST(BlenderAddon, AppliesDeltaTransformsOnce) {
     const TemporaryFolder folder;
     const json found = use_addon({"deltas", rubber_file(folder)});
-    for (const json& error : found["faults"]) EXPECT_EQ(error, "");
+    for (const json& error : found["errors"]) EXPECT_EQ(error, "");
     const json& own = found["own"];
     EXPECT_GT(distance(pose_of(own["keyed"][2]), pose_of(own["begin"])), 0.01) << "it falls";
     for (const char* name : {"own", "euler", "quaternion"}) {
@@ -212,7 +212,7 @@ TEST(BlenderLive, EndsFlightsThatNoObjectShowsAnyMore) {
 TEST(BlenderAddon, LetsGoOfAnObjectWhereItsKeysHaveItWithTheirVelocity) {
     const TemporaryFolder folder;
     const json found = use_addon({"led", rubber_file(folder)});
-    EXPECT_EQ(found["fault"], "");
+    EXPECT_EQ(found["error"], "");
     const double frame = found["seconds_per_frame"].get<double>();
     for (std::size_t i = 0; i < found["led"].size(); ++i) {
         expect_same_poses(json::array({found["flown"][i]}), json::array({found["led"][i]}));
@@ -252,7 +252,7 @@ TEST(BlenderAddon, LetsGoOfAnObjectWhereItsKeysHaveItWithTheirVelocity) {
 TEST(BlenderAddon, GivesAnObjectBackToItsKeysEvenly) {
     const TemporaryFolder folder;
     const json found = use_addon({"returned", rubber_file(folder)});
-    EXPECT_EQ(found["fault"], "");
+    EXPECT_EQ(found["error"], "");
     const auto pose = [&](const char* name, std::size_t frame) { return pose_of(found[name][frame]); };
     // Counted from 0: released at 4, back at 24, over 10 frames.
     for (std::size_t i = 0; i <= 14; ++i)

@@ -76,14 +76,14 @@ class LiveFlights(unittest.TestCase):
 
     def test_a_force_counts_once_whatever_call_comes_before(self):
         once, held, refused = (samara.Simulation(self.scene) for _ in range(3))
-        for flight in (once, held, refused):
+        for simulation in (once, held, refused):
             simulation.advance(0.1)
             simulation.add_force("leaf", (0.01, 0.0, 0.0), copy=1)
         held.advance(0.1)
         for time in (0.05, 1e300):
             with self.assertRaises(samara.Error):
                 refused.advance(time)
-        for flight in (once, held, refused):
+        for simulation in (once, held, refused):
             simulation.advance(0.5)
         expected = once.poses("leaf").position
         numpy.testing.assert_array_equal(held.poses("leaf").position, expected)
@@ -146,7 +146,7 @@ class LiveFlights(unittest.TestCase):
     def test_wind_and_ground_change_in_flight(self):
         plain = samara.Simulation(self.scene, runs=2)
         self.simulation.set_wind({"velocity": [3, 0, 0], "vortex": [{"position": [0, 0, 1], "circulation": 1.0, "core": 0.1}]})
-        for flight in (self.simulation, plain):
+        for simulation in (self.simulation, plain):
             simulation.advance(0.3)
         drift = self.simulation.poses("leaf").position - plain.poses("leaf").position
         self.assertTrue((drift[..., 0] > 0.1).all())
@@ -235,7 +235,7 @@ class LiveFlights(unittest.TestCase):
 
     def test_poses_outlive_the_flight(self):
         position = self.simulation.poses("leaf").position
-        del self.flight
+        del self.simulation
         gc.collect()
         self.assertTrue(numpy.isfinite(position).all())
 

@@ -138,7 +138,7 @@ def deltas(file):
     scene.frame_end = 25
     o.samara.noise = False
     place, turn = mathutils.Vector((0.5, -1.0, 2.0)), mathutils.Euler((0.3, -0.5, 1.1)).to_quaternion()
-    found = {"faults": []}
+    found = {"errors": []}
     for name, shift, mode, delta in (
         ("own", (0.0, 0.0, 0.0), "XYZ", mathutils.Quaternion()),
         ("euler", (1.0, 2.0, 3.0), "XYZ", mathutils.Euler((0.2, 0.9, -0.4)).to_quaternion()),
@@ -156,13 +156,13 @@ def deltas(file):
         o.delta_scale, o.scale = ((1.0, 1.0, 1.0), (2.0, 2.0, 2.0)) if name == "own" else ((4.0, 4.0, 4.0), (0.5, 0.5, 0.5))
         bpy.context.view_layer.update()
         begin = [list(row) for row in o.matrix_basis]
-        found["faults"].append(run(bpy.ops.samara.live))
+        found["errors"].append(run(bpy.ops.samara.live))
         live_way = matrices([o], (1, 13, 25))[o.name]
         scene.frame_set(1)
-        found["faults"].append(run(bpy.ops.samara.live))
+        found["errors"].append(run(bpy.ops.samara.live))
         end = [list(row) for row in o.matrix_basis]
         assert o.rotation_mode == mode
-        found["faults"].append(run(bpy.ops.samara.simulate))
+        found["errors"].append(run(bpy.ops.samara.simulate))
         found[name] = {"begin": begin, "live": live_way, "end": end, "keyed": matrices([o], (1, 13, 25))[o.name]}
     o.keyframe_insert("delta_location", frame=1)
     found["animated"] = run(bpy.ops.samara.simulate)
