@@ -177,7 +177,8 @@ int search_command(int argc, const char* const* argv) {
         "A seed draws the noise and, of bodies with a count above 1, starts, sizes and release times; of "
         "any\n"
         "with an emitter the point; and gusts of the wind without a seed. Where nothing is drawn, all seeds\n"
-        "give the same, and the search is rejected. The copy that comes nearest counts. --json: body, reached "
+        "give the same, and the search is rejected. The copy that comes nearest counts. --json: body, "
+        "reached "
         "(how many), "
         "tries\n(seed, copy, distance, time, reached; the nearest first).\n");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments); });

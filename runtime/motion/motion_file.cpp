@@ -106,8 +106,7 @@ MotionReader::MotionReader(const std::filesystem::path& path) : file_(std::make_
         throw Error(fmt::format("{}: is an HDF5 file, but not a motion file; make one with 'samara simulate'",
                                 path.string()));
     }
-    if (const auto found = file_->integer_attribute("/", "format_version");
-        found > motion_format_version) {
+    if (const auto found = file_->integer_attribute("/", "format_version"); found > motion_format_version) {
         throw Error(
             fmt::format("{}: was written by a newer version of samara (format {}, this one reads {}); update",
                         path.string(), found, motion_format_version));

@@ -268,8 +268,8 @@ void read_step(TomlTable& table, Scene& scene) {
     } else if (*table.text("step") != "auto") {
         throw table.error("step", "must be a number of seconds, or \"auto\"");
     }
-    const auto tolerance =
-        table.number("step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the distance moved"});
+    const auto tolerance = table.number(
+        "step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the distance moved"});
     if (tolerance && !scene.step_auto) {
         throw table.error("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
     }

@@ -193,9 +193,9 @@ bool LowestSide::covers(const Vector3d& a, const Vector3d& b, double& from, doub
 
 }  // namespace
 
-FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const ContactSurfaceVelocity& surface,
-                           double time_step, double margin, double friction, int obstacle,
-                           ContactSet& near) noexcept
+FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity,
+                           const ContactSurfaceVelocity& surface, double time_step, double margin,
+                           double friction, int obstacle, ContactSet& near) noexcept
     : hull_(hull),
       next_(hull),
       velocity_(velocity),

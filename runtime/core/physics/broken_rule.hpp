@@ -40,8 +40,8 @@ std::optional<BrokenRule> broken_rule(const Release& release);
 std::optional<BrokenRule> broken_rule(const std::vector<ObstacleKey>& keys);
 
 /// The first rule that an obstacle, or the mesh of an emitter, breaks: its friction is none, or its keys are
-/// out of order or jump (most_key_speed), so that it would strike every body on its path. The speed is that of the
-/// origin and, added to it, that of the farthest vertex about the origin. Nothing where it is sound.
+/// out of order or jump (most_key_speed), so that it would strike every body on its path. The speed is that
+/// of the origin and, added to it, that of the farthest vertex about the origin. Nothing where it is sound.
 std::optional<BrokenRule> broken_rule(const Obstacle& obstacle);
 
 }  // namespace samara
