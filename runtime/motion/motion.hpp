@@ -23,6 +23,7 @@ struct MetricUncertainty {
     double relative = 0.0;  ///< the difference relative to the metric, 0 or more
     double chance = 0.0;    ///< standard error of the difference relative to the metric, 0 or more
 
+    /// Returns whether all members are equal.
     friend bool operator==(const MetricUncertainty&, const MetricUncertainty&) = default;
 };
 

@@ -25,9 +25,10 @@ struct SceneBody : BodyPhysics, Release {
     std::shared_ptr<const DisplayMesh>
         display;               ///< mesh for exports, in metres and shape axes; null: its surface
     bool models_auto = false;  ///< whether the model advice chooses the models (docs/plan.md)
-    /// Whether the scene leaves the loads, or the turbulence, to what the body's file holds: tables, or else
-    /// the loads of its surface, in still fluid.
+    /// Whether the scene leaves the loads to what the body's file holds: tables, or else the loads of its
+    /// surface.
     bool loads_by_default = false;
+    /// Whether the scene leaves the turbulence to what the body's file holds: tables, or else still fluid.
     bool turbulence_by_default = false;
 };
 

@@ -64,7 +64,7 @@ for step in (0.0005, 0.002, 0.01, 1 / 24):
             "fluid": {"density": 1e-6, "viscosity": 1e-9},
             "body": [body(name, density, start) for name, density, start in zip(NAMES, (700, 900), pair)],
         }
-        flight = samara.Flight(samara.Scene(scene))
+        flight = samara.Simulation(samara.Scene(scene))
         flight.watch_contacts(True)
         scale = flight.mass_properties("a")[0]
         begin = before = totals(flight)

@@ -29,8 +29,8 @@ inline Matrix3d skew(const Vector3d& a) {
 
 /// The eigenvalues of a symmetric matrix in ascending order, and their unit eigenvectors as columns.
 struct PrincipalValues {
-    Vector3d values;
-    Matrix3d directions;
+    Vector3d values;      ///< ascending
+    Matrix3d directions;  ///< column i is the unit eigenvector of values[i]
 };
 
 /// Returns the eigenvalues and eigenvectors of a symmetric matrix, of which the lower triangle alone is read.

@@ -97,8 +97,8 @@ inline constexpr NumberOfMotion numbers_of_motion[] = {
 /// The range of the densities of the falls that coefficients are identified from, relative to the fluid's;
 /// zero where not known.
 struct IdentifiedDensities {
-    double lowest = 0.0;
-    double highest = 0.0;
+    double lowest = 0.0;   ///< the least density, relative to the fluid's
+    double highest = 0.0;  ///< the greatest density, relative to the fluid's
 };
 
 /// Coefficients with the standard error of each.

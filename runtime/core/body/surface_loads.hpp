@@ -22,8 +22,8 @@ struct SurfacePressure {
 /// Force and moment of the pressure in a steady translation, in units of rho U^2 A / 2 and rho U^2 A L / 2;
 /// body axes, about the centroid of the volume.
 struct PressureLoads {
-    Vector3d force = Vector3d::Zero();
-    Vector3d moment = Vector3d::Zero();
+    Vector3d force = Vector3d::Zero();   ///< in units of rho U^2 A / 2
+    Vector3d moment = Vector3d::Zero();  ///< in units of rho U^2 A L / 2
 };
 
 /// The potential flow over the surface, from which the loads of a steady translation are estimated without
@@ -49,7 +49,7 @@ LoadTables as_tables(const SurfaceLoads& loads, double length, const SurfacePres
 struct SurfaceElement {
     Vector3d place = Vector3d::Zero();   ///< its centre
     Vector3d normal = Vector3d::Zero();  ///< outward; zero where it has no area
-    double area = 0.0;
+    double area = 0.0;                   ///< in units of L^2
     /// The fluid's velocity along the surface, as seen from the body: a column for each unit velocity of the
     /// body.
     Matrix3d surface_velocity = Matrix3d::Zero();

@@ -291,17 +291,17 @@ typedef struct samara_obstacle_key {
 /* A solid that bodies touch and that does not react to them. Fill it with samara_default_obstacle. The
  * library copies the data behind the pointers. */
 typedef struct samara_obstacle {
-    size_t size;            /* sizeof(samara_obstacle): which members are there */
-    const char* name;       /* for messages: letters, digits, - and _; default (null): "obstacle-" and its
-                               number */
-    const double* vertices; /* x, y, z of each, m, in the obstacle's axes; by default the world's */
-    size_t vertex_count;
+    size_t size;              /* sizeof(samara_obstacle): which members are there */
+    const char* name;         /* for messages: letters, digits, - and _; default (null): "obstacle-" and its
+                                 number */
+    const double* vertices;   /* x, y, z of each, m, in the obstacle's axes; by default the world's */
+    size_t vertex_count;      /* how many vertices */
     const int32_t* triangles; /* three vertex numbers each; of a closed surface counter-clockwise seen from
                                  outside; a sheet has two sides */
-    size_t triangle_count;
-    double friction;                 /* Coulomb's coefficient; default: 0.5 */
-    double position[3];              /* where the obstacle's origin is, m; default: 0, 0, 0 */
-    double orientation[4];           /* w, x, y, z; is normalised; default: 1, 0, 0, 0 */
+    size_t triangle_count;    /* how many triangles */
+    double friction;          /* Coulomb's coefficient; default: 0.5 */
+    double position[3];       /* where the obstacle's origin is, m; default: 0, 0, 0 */
+    double orientation[4];    /* w, x, y, z; is normalised; default: 1, 0, 0, 0 */
     const samara_obstacle_key* keys; /* where it moves: in order of time, in place of the two above, and no
                                         point of it faster than 100 m/s */
     size_t key_count;                /* default: 0 */

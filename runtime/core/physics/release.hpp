@@ -18,9 +18,10 @@ struct Release {
     /// m: copies start within +- this of `position`, each axis uniform
     Vector3d spread_position = Vector3d::Zero();
     double spread_angle = 0.0;  ///< rad: copies are rotated by up to this about a random axis
-    /// Relative to the shape's lengths: the copies' sizes, all at one density, lie between these, their
-    /// logarithms uniform. A single copy has the two, where they are equal.
-    double smallest_size = 1.0, largest_size = 1.0;
+    /// The least size of the copies relative to the shape's lengths. Sizes, all at one density, lie between
+    /// this and largest_size, their logarithms uniform; those of a single copy are equal.
+    double smallest_size = 1.0;
+    double largest_size = 1.0;  ///< the greatest size of the copies relative to the shape's lengths
     double spread_start = 0.0;  ///< s: copies start up to this after `start`, uniform, as a step begins
     /// The mesh where copies start instead of `position`, in its axes and with its motion; null where there
     /// is none.

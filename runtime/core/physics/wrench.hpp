@@ -7,8 +7,8 @@ namespace samara {
 /// A force on a body's centre of mass (N, or as an impulse N s) and a moment about it (N m, N m s), world
 /// axes.
 struct Wrench {
-    Vector3d force = Vector3d::Zero();
-    Vector3d moment = Vector3d::Zero();
+    Vector3d force = Vector3d::Zero();   ///< N, or N s
+    Vector3d moment = Vector3d::Zero();  ///< N m, or N m s, about the centre of mass
 
     /// Returns whether force and moment are zero.
     [[nodiscard]] bool is_zero() const noexcept { return force.isZero(0.0) && moment.isZero(0.0); }

@@ -11,7 +11,7 @@ namespace samara {
 
 /// An image of a material.
 struct DisplayImage {
-    std::string name;
+    std::string name;   ///< as its source has it
     std::string bytes;  ///< of the PNG or JPEG file, as its source has it (core/surface/display_image.hpp)
 };
 
@@ -24,10 +24,10 @@ enum class DisplayTransparency : std::int32_t {
 
 /// A material slot of a mesh.
 struct DisplayMaterial {
-    std::string name;
+    std::string name;                                    ///< as its source has it
     std::array<double, 4> color = {0.8, 0.8, 0.8, 1.0};  ///< red, green, blue and opacity, 0 to 1, linear
     std::int32_t image = -1;  ///< number of the image that color multiplies; -1: none
-    DisplayTransparency transparency = DisplayTransparency::none;
+    DisplayTransparency transparency = DisplayTransparency::none;  ///< what its opacity does
 };
 
 /// A mesh that exports show in place of a body's surface, with normals, texture and materials, as its file
