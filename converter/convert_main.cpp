@@ -271,7 +271,7 @@ int run(int argc, const char* const* argv) {
         "Reads plan.json, body.body.h5 and every solved case, and writes the body with /tables: force and\n"
         "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, each with its standard error.\n"
         "NAME.csv: one row for every solved case, before symmetry and tables, in body axes.\n"
-        "docs/bake.md says what a folder of cases that you solved yourself must hold.\n"
+        "docs/explanation/bake.md says what a folder of cases that you solved yourself must hold.\n"
         "Example: samara convert rubber.cases -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] {
         const bool samples = output.ends_with(".csv");

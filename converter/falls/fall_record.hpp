@@ -50,7 +50,7 @@ struct FallBalance {
 FallBalance balance_of(const FallRecord& record);
 
 /// The limits above which a fall gets a warning that its momenta do not balance: twice the worst of ten falls
-/// by kEpsilon (docs/validate.md).
+/// by kEpsilon (docs/explanation/full-cfd.md).
 inline constexpr FallBalance largest_good_balance = {0.05, 0.15};
 
 /// Whether either residual exceeds largest_good_balance.

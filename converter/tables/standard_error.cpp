@@ -28,7 +28,7 @@ double batch_error(const std::vector<double>& series, std::size_t batches) {
 }
 
 // In iterations; chosen by ellipsoids that were solved to twice the length, tested on spheres and plates
-// (docs/bake.md).
+// (docs/explanation/bake.md).
 constexpr double memory_of_iterations = 100.0;
 
 }  // namespace

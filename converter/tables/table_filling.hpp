@@ -13,7 +13,7 @@ namespace samara {
 /// table cases, with `subdivisions` and `axes` of the tables as they stand. The main Reynolds number has
 /// most directions; the others may have any of its directions (ReynoldsFit). Where the mesh before (purpose
 /// `mesh`) has more directions than the table, the main one is its fit plus that of the change by the last
-/// mesh (docs/theory.md, "Two meshes"). For a body of finite symmetry it may be relative to the surface
+/// mesh (docs/explanation/model.md, "Two meshes"). For a body of finite symmetry it may be relative to the surface
 /// loads, where these are given (SurfaceTrend).
 ///
 /// In `cases` the loads that the symmetry forbids are removed from every case, and the table cases' errors

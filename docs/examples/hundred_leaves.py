@@ -1,4 +1,4 @@
-"""The tutorial of docs/blender.md by script: a hundred leaves fall, as keys, and one frame is rendered.
+"""The tutorial of docs/reference/blender.md by script: a hundred leaves fall, as keys, and one frame is rendered.
 
   blender -b --factory-startup --python hundred_leaves.py -- ADD-ON.zip leaf.body.h5 PICTURE.png [LEAVES.blend]
 """

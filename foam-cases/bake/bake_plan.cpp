@@ -372,7 +372,7 @@ Closure closure_at(double reynolds_number, Closure turbulent) {
 }
 
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
-    // For k-epsilon, means over the cases of docs/bake.md whose tails were compared with longer runs.
+    // For k-epsilon, means over the cases of docs/explanation/bake.md whose tails were compared with longer runs.
     if (entry.closure == Closure::k_epsilon)
         return (entry.start_from.empty() ? 1.3 : 1.2) * plan.quality.least_iterations;
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;

@@ -28,7 +28,7 @@ constexpr double stable_share = 0.85;
 constexpr double negligible_arm = 1e-9;
 
 // CPU seconds, measured with pimpleFoam v1912, one outer and two pressure correctors: on a core of its
-// own 2.7e-6 by k-epsilon, 3.7e-6 without a closure and 5e-6 by the others (docs/validate.md). Two cores that
+// own 2.7e-6 by k-epsilon, 3.7e-6 without a closure and 5e-6 by the others (docs/explanation/full-cfd.md). Two cores that
 // other work shares take 1.46 times as long.
 double seconds_per_cell_and_step(Closure closure) {
     constexpr double shared = 1.46;

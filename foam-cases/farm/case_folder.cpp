@@ -25,7 +25,7 @@ constexpr const char* helper_file = "case_files.py";
 
 // The README of a folder of cases.
 constexpr const char* folder_notes =
-    "OpenFOAM cases and their meshes, by samara (docs/bake.md, docs/file-formats.md). ParaView opens each by "
+    "OpenFOAM cases and their meshes, by samara (docs/explanation/bake.md, docs/reference/file-formats.md). ParaView opens each by "
     "its file\n"
     "case.foam. The folder may be moved and copied as a whole: no link leads out of it. A case's mesh is a "
     "link to the\n"

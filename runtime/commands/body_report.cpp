@@ -143,7 +143,7 @@ PressureLoads largest_of(const SurfaceLoads& loads) {
 
 void print_surface_loads(const SurfaceLoads& loads) {
     const auto [force, moment] = largest_of(loads);
-    print_result("Loads of the surface, by its potential flow (docs/surface-loads.md)\n");
+    print_result("Loads of the surface, by its potential flow (docs/explanation/loads-without-a-bake.md)\n");
     print_row("force", "up to {:.3g} (rho U^2 A / 2)", force.norm());
     print_row("moment", "up to {:.3g} (rho U^2 A L / 2)", moment.norm());
 }

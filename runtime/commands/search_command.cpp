@@ -161,7 +161,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 int search_command(int argc, const char* const* argv) {
     Request request;
     Arguments arguments(program, "Looks for the seeds with which a body lands in a target or passes a ring.");
-    arguments.positional("SCENE", request.scene, "scene file (.toml; docs/scene-file.md lists its keys)");
+    arguments.positional("SCENE", request.scene, "scene file (.toml; docs/reference/scene-file.md lists its keys)");
     arguments.option("--target", request.target,
                      "x,y,z,radius (m): a ball in which the body is to be when the scene ends");
     arguments.option("--ring", request.ring,

@@ -93,7 +93,7 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
         if (body.loads == Loads::surface && body.loads_by_default) {
             notes.add("surface", body.name, 0.0,
                       "has no tables, and flies by the pressure that potential flow tells of its surface "
-                      "(docs/surface-loads.md); 'samara bake' makes tables");
+                      "(docs/explanation/loads-without-a-bake.md); 'samara bake' makes tables");
         }
         const DensityWarning density = density_warning(body, *loaded[i].body, scene.fluid);
         notes.add("density", body.name, density.ratio, density.text);
@@ -268,7 +268,7 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 int simulate_command(int argc, const char* const* argv) {
     Request request;
     Arguments arguments(program, "Simulates a scene and writes the motion of its bodies.");
-    arguments.positional("SCENE", request.scene, "scene file (.toml; docs/scene-file.md lists its keys)");
+    arguments.positional("SCENE", request.scene, "scene file (.toml; docs/reference/scene-file.md lists its keys)");
     arguments.required_output_option("-o,--output", request.output, "motion file to write (.h5)");
     arguments.option(
         "--bodies", request.bodies,
@@ -281,7 +281,7 @@ int simulate_command(int argc, const char* const* argv) {
     arguments.footer(
         "--json: bodies (a list with name, mean_velocity, mean_descent_speed, final_position, regime, and "
         "the\n"
-        "metrics of the ensemble of copies and runs: docs/output.md), steps, seconds, nanoseconds_per_step.\n"
+        "metrics of the ensemble of copies and runs: docs/reference/output.md), steps, seconds, nanoseconds_per_step.\n"
         "Speeds in m/s over the last two thirds of the fall, angles in radians. An interrupt (Ctrl-C) "
         "leaves\n"
         "the frames flown so far as a motion file.\n");

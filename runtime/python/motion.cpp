@@ -377,7 +377,7 @@ void bind_motion(py::module_& module) {
                py::arg("body") = py::none(), py::arg("window") = py::none(), py::arg("progress") = py::none(),
                "Holds a motion against a reference, such as a fall by full CFD; each a Motion or a file. A "
                "dict, as 'samara "
-               "compare --json' prints it (docs/output.md): `agrees`, `certain`, and each figure of both "
+               "compare --json' prints it (docs/reference/output.md): `agrees`, `certain`, and each figure of both "
                "with its standard "
                "error, their difference and the verdict. `window`: (begin, end) in s after the release.");
     module.def("_comparison_picture", &picture_of_comparison, py::arg("motion"), py::arg("reference"),

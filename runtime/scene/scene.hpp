@@ -24,7 +24,7 @@ struct SceneBody : BodyPhysics, Release {
     double scale = 1.0;           ///< metres for one unit of the shape file
     std::shared_ptr<const DisplayMesh>
         display;               ///< mesh for exports, in metres and shape axes; null: its surface
-    bool models_auto = false;  ///< whether the model advice chooses the models (docs/plan.md)
+    bool models_auto = false;  ///< whether the model advice chooses the models (docs/explanation/what-a-scene-needs.md)
     /// Whether the scene leaves the loads to what the body's file holds: tables, or else the loads of its
     /// surface.
     bool loads_by_default = false;
@@ -36,7 +36,7 @@ struct SceneBody : BodyPhysics, Release {
 struct Scene {
     double duration = 0.0;   ///< s
     double step = 0.002;     ///< s
-    bool step_auto = false;  ///< whether the step is chosen by the bodies' time scales (docs/theory.md)
+    bool step_auto = false;  ///< whether the step is chosen by the bodies' time scales (docs/explanation/model.md)
     double step_tolerance = 0.005;  ///< largest error of the step, relative to the displacement
     double frame_rate = 60.0;       ///< frames per second
     std::uint64_t seed = 1;         ///< seed of the noise and the spread of starts

@@ -75,7 +75,7 @@ PKG_CONFIG_PATH=$library pkg-config --modversion samara | grep -q '^[0-9]'
 ln -s "$source_folder/docs" "$work/docs"
 ln -s installed "$work/DIR"
 ln -s installed "$work/samara"
-grep -hE '^    cc ' "$source_folder/docs/c-interface.md" "$source_folder/docs/tutorials/c-interface.md" >"$work/lines"
+grep -hE '^    cc ' "$source_folder/docs/reference/c.md" "$source_folder/docs/tutorials/engine.md" >"$work/lines"
 [ "$(wc -l <"$work/lines")" = 3 ]
 while read -r line; do
   rm -f "$work/fall"

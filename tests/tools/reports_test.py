@@ -14,8 +14,8 @@ STUDIES = "docs/studies"
 REWRITING = {"falls/falls_report.py": "falls/README.md", "falls/tows_report.py": "falls/README.md",
              "falls/references_report.py": "falls/README.md", "falls/long_falls_report.py": "falls/README.md",
              "step/step_auto.py": "step/README.md", "noise/noise_report.py": "noise/README.md",
-             "noise/ensembles_report.py": "noise/README.md", "surface-loads/surface_report.py": "../surface-loads.md",
-             "test-falls/test_falls_report.py": "test-falls/README.md", "falls/bodies_report.py": "../shapes.md"}
+             "noise/ensembles_report.py": "noise/README.md", "surface-loads/surface_report.py": "surface-loads/README.md",
+             "test-falls/test_falls_report.py": "test-falls/README.md", "falls/bodies_report.py": "falls/ready-baked.md"}
 
 
 class Reports(unittest.TestCase):

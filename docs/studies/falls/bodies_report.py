@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The ready-baked bodies beside falls of theirs by full CFD, with noise and without: bodies.csv and the tables of
-docs/shapes.md.
+docs/studies/falls/ready-baked.md.
 
     bodies_report.py BIN     flies them: seconds. BIN: the folder of the programs
     bodies_report.py         writes the tables again
@@ -17,7 +17,7 @@ sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # 
 from falls_report import FALLS, RUNS, compared, heading, row_of, rows_of_falls, table_of_falls, written  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
 
-ROWS, PAGE = f"{FALLS}/bodies.csv", "docs/shapes.md"
+ROWS, PAGE = f"{FALLS}/bodies.csv", "docs/studies/falls/ready-baked.md"
 # The falls of each body, and the folder that holds them.
 FALLS_OF = {"airplane": ("airplane", FALLS), "cube": ("cube", FALLS), "disc": ("disc-4500", "docs/studies/test-falls"),
             "ellipsoid": ("ellipsoid-tilted", FALLS), "leaf": ("leaf", FALLS), "samara": ("samara", FALLS),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Falls by the loads of the surface, without CFD, beside full CFD; what it takes of bodies that come with samara.
 
-    surface_report.py BIN    flies the falls, and writes surface-loads.csv and the tables of docs/surface-loads.md
+    surface_report.py BIN    flies the falls, and writes surface-loads.csv and the tables of docs/studies/surface-loads/README.md
     surface_report.py        writes the tables again from the rows of the last run
 
 BIN: the folder of the programs. Run from the project's folder.
@@ -68,7 +68,7 @@ def main(words):
     with open(ROWS, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     tables = [table_of_falls([row for row in rows if row["set"] == kind]) for kind in ("chosen", "test", "long")]
-    write_tables("docs/surface-loads.md", tables, mark("surface"))
+    write_tables("docs/studies/surface-loads/README.md", tables, mark("surface"))
     return 0
 
 

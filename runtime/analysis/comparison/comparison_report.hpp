@@ -8,7 +8,7 @@
 
 namespace samara {
 
-/// Returns a comparison as a JSON object in SI units and radians; docs/output.md lists its keys. Unknown
+/// Returns a comparison as a JSON object in SI units and radians; docs/reference/output.md lists its keys. Unknown
 /// values are null.
 nlohmann::json as_json(const Comparison& comparison);
 

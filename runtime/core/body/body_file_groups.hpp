@@ -19,7 +19,7 @@ void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& 
 /// error is negative.
 IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file);
 
-/// Writes the group /mass of a body file (docs/file-formats.md).
+/// Writes the group /mass of a body file (docs/reference/file-formats.md).
 void write_mass(Hdf5Writer& file, const MassSpecification& mass);
 
 /// Reads the group /mass of a body file. Throws Error where it holds both a density and a mass, or neither.
@@ -33,7 +33,7 @@ void write_planned_region(Hdf5Writer& file, const PlannedRegion& region);
 /// Error where the size of the map is invalid.
 PlannedRegion read_planned_region(const Hdf5Reader& file);
 
-/// Writes the group /surface_loads of a body file (docs/file-formats.md).
+/// Writes the group /surface_loads of a body file (docs/reference/file-formats.md).
 void write_surface_loads(Hdf5Writer& file, const SurfaceLoads& loads);
 
 /// Returns whether the file holds /surface_loads; an earlier form, of forces by direction, counts as none.

@@ -10,7 +10,7 @@
 namespace samara {
 
 /// The two constants of the pressure, which all bodies share, chosen on the reference falls
-/// (docs/surface-loads.md).
+/// (docs/explanation/loads-without-a-bake.md).
 struct SurfacePressure {
     /// in units of rho U^2 / 2: the pressure behind the body, and the least anywhere: a flow that would have
     /// to go below separates
@@ -27,7 +27,7 @@ struct PressureLoads {
 };
 
 /// The potential flow over the surface, from which the loads of a steady translation are estimated without
-/// CFD (docs/surface-loads.md). Nondimensional with L = sqrt(S/pi) and A = pi L^2/4.
+/// CFD (docs/explanation/loads-without-a-bake.md). Nondimensional with L = sqrt(S/pi) and A = pi L^2/4.
 struct SurfaceLoads {
     Surface surface;  ///< flat triangles, in units of L about the centroid of the volume, body axes
     /// At each vertex the potentials of the unit velocities along the three axes, in units of U L.
@@ -59,7 +59,7 @@ struct SurfaceElement {
 std::vector<SurfaceElement> surface_elements(const SurfaceLoads& loads);
 
 /// Returns the pressure on the element, in units of rho U^2 / 2, where the body moves along the unit vector
-/// `direction` (docs/surface-loads.md, "The steady translation").
+/// `direction` (docs/explanation/loads-without-a-bake.md, "The steady translation").
 double pressure_on(const SurfaceElement& element, const Vector3d& direction, const SurfacePressure& pressure);
 
 /// The reference area A relative to L^2.

@@ -1,6 +1,6 @@
 /* The C interface of samara: rigid bodies that fall, flutter and tumble through a fluid.
  *
- * For animation tools and game engines, in C99 and any language that calls C (docs/c-interface.md, with an
+ * For animation tools and game engines, in C99 and any language that calls C (docs/reference/c.md, with an
  * example). SI units; angles in radians; world z is up; quaternions are (w, x, y, z) and rotate the axes of
  * the shape to the world's.
  *
@@ -137,7 +137,7 @@ typedef struct samara_settings {
 SAMARA_API samara_status samara_default_settings(samara_settings* settings, size_t size, char* error,
                                                  size_t error_size);
 
-/* The models, described in docs/theory.md: of loads, turbulence and the Langevin equation. */
+/* The models, described in docs/explanation/model.md: of loads, turbulence and the Langevin equation. */
 enum {
     SAMARA_LOADS_NONE = 0,
     SAMARA_LOADS_COEFFICIENTS = 1,
@@ -328,7 +328,7 @@ SAMARA_API samara_status samara_set_obstacle_keys(samara_simulation* simulation,
                                                   size_t error_size);
 
 /* Sets the wind in addition to `current`, gust and function of the settings, from the next step on: the keys
- * of [wind] of a scene (docs/scene-file.md), in TOML:
+ * of [wind] of a scene (docs/reference/scene-file.md), in TOML:
  *
  *     "velocity = [4, 0, 0]\n"
  *     "profile = { law = \"log\" }\n"

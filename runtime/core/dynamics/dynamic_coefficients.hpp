@@ -14,7 +14,7 @@ inline constexpr double usual_rotational_drag = 0.7;
 inline constexpr double usual_rotational_drag_in_spin = 0.7;
 
 /// The coefficients that all bodies share beside loads of the surface; chosen on the reference falls together
-/// with the constants of the pressure (docs/surface-loads.md).
+/// with the constants of the pressure (docs/explanation/loads-without-a-bake.md).
 struct SurfaceMotion {
     double transport = 0.72;  ///< T relative to the added mass
     double spin_lift = 1.67;  ///< added to T, equal in all axes, relative to a third of the added mass' trace

@@ -45,7 +45,7 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
 
 /// Returns the load of the fluid on a body of `size` times the shape's lengths in step number `step` of a
 /// simulation that began at `start` (s), with the turbulence and wind of that step: the equations of
-/// docs/theory.md, "Hosts". The state is in the body's own units (body_size.hpp), start and step are the
+/// docs/explanation/model.md, "Hosts". The state is in the body's own units (body_size.hpp), start and step are the
 /// world's. Allocates only for a body of another size in constant turbulence.
 FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
                         double time_step, const BodyState& state, const Noise& noise, std::uint64_t step);

@@ -8,7 +8,7 @@
 namespace samara {
 
 /// The source of the loads of a steady translation: none, drag and lift coefficients, the body's tables, or
-/// the pressure of the potential flow over its surface (docs/surface-loads.md).
+/// the pressure of the potential flow over its surface (docs/explanation/loads-without-a-bake.md).
 enum class Loads { none, coefficients, table, surface };
 /// The source of the turbulence around a body: none, constants, or the body's tables.
 enum class Turbulence { none, constant, table };
@@ -21,7 +21,7 @@ enum class Langevin { sampled_turbulence, body_velocity, wake };
 /// defaults where it has none; the defaults; none.
 enum class Dynamic { of_body, by_default, none };
 
-/// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body (docs/theory.md).
+/// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body (docs/explanation/model.md).
 struct CoefficientLoads {
     double drag_coefficient = 1.0;         ///< C_d of eq. 5
     double lift_coefficient = 0.0;         ///< C_l of eq. 5

@@ -66,7 +66,7 @@ Errors errors_of_fall(const Motion& fall, double frame_rate) {
     return errors;
 }
 
-// The numbers of docs/output.md.
+// The numbers of docs/reference/output.md.
 TEST(Resample, FollowsTheReferenceFallsByFullCfd) {
     int falls = 0;
     for (const auto& entry :

@@ -1,5 +1,5 @@
 // Bodies that fall by the loads of their surface, without CFD and without a coefficient of their own, beside
-// falls by full CFD. docs/surface-loads.md has all errors; here they must fall alike.
+// falls by full CFD. docs/explanation/loads-without-a-bake.md has all errors; here they must fall alike.
 
 #include <string>
 
