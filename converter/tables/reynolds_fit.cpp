@@ -52,7 +52,8 @@ double hypot_scaled(double scale, double spread, double other) {
     return std::hypot(scale * spread, other);
 }
 
-// With few samples only a large difference is significant (docs/theory, "Between the cases").
+// With few samples only a large difference is significant
+// (docs/explanation/steady-loads.md#from-cases-to-tables).
 bool halves_the_variance(double error, double other) {
     return error * error < 0.5 * other * other;
 }

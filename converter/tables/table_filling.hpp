@@ -13,8 +13,8 @@ namespace samara {
 /// table cases, with `subdivisions` and `axes` of the tables as they stand. The main Reynolds number has
 /// most directions; the others may have any of its directions (ReynoldsFit). Where the mesh before (purpose
 /// `mesh`) has more directions than the table, the main one is its fit plus that of the change by the last
-/// mesh (docs/explanation/model.md, "Two meshes"). For a body of finite symmetry it may be relative to the surface
-/// loads, where these are given (SurfaceTrend).
+/// mesh (docs/explanation/steady-loads.md#from-cases-to-tables). For a body of finite symmetry it may be
+/// relative to the surface loads, where these are given (SurfaceTrend).
 ///
 /// In `cases` the loads that the symmetry forbids are removed from every case, and the table cases' errors
 /// are widened by them (keep_symmetric_part).

@@ -6,7 +6,7 @@
 
 namespace samara {
 
-/// Boundary element methods for the Kirchhoff tensor; docs/theory-kirchhoff derives both.
+/// Boundary element methods for the Kirchhoff tensor; docs/explanation/added-mass.md derives both.
 enum class KirchhoffMethod {
     automatic,           ///< chosen by the surface: curved triangles where it is smooth, else hypersingular
     curved_collocation,  ///< direct, quadratic on curved triangles: the fourth order on smooth bodies

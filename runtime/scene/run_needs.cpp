@@ -15,8 +15,8 @@
 namespace samara {
 namespace {
 
-// Bytes of a copy in a run while it is simulated (body_flight.hpp), and of its poses in a block while that is
-// written.
+// Bytes of a copy in a run while it is simulated (runtime/core/simulation/body_group.hpp), and of its poses
+// in a block while that is written.
 constexpr double bytes_of_a_flight = static_cast<double>(sizeof(StateBlock)) / StateBlock::size +
                                      2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsOnPath);
 constexpr double bytes_in_file = 13.0 * sizeof(double);

@@ -23,8 +23,9 @@ struct SceneBody : BodyPhysics, Release {
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
     double scale = 1.0;           ///< metres for one unit of the shape file
     std::shared_ptr<const DisplayMesh>
-        display;               ///< mesh for exports, in metres and shape axes; null: its surface
-    bool models_auto = false;  ///< whether the model advice chooses the models (docs/explanation/what-a-scene-needs.md)
+        display;  ///< mesh for exports, in metres and shape axes; null: its surface
+    bool models_auto =
+        false;  ///< whether the model advice chooses the models (docs/explanation/what-a-scene-needs.md)
     /// Whether the scene leaves the loads to what the body's file holds: tables, or else the loads of its
     /// surface.
     bool loads_by_default = false;
@@ -34,9 +35,10 @@ struct SceneBody : BodyPhysics, Release {
 
 /// A scene file, checked: every number is finite and in its range.
 struct Scene {
-    double duration = 0.0;   ///< s
-    double step = 0.002;     ///< s
-    bool step_auto = false;  ///< whether the step is chosen by the bodies' time scales (docs/explanation/model.md)
+    double duration = 0.0;  ///< s
+    double step = 0.002;    ///< s
+    bool step_auto =
+        false;  ///< whether the step is chosen by the bodies' time scales (docs/explanation/integrator.md)
     double step_tolerance = 0.005;  ///< largest error of the step, relative to the displacement
     double frame_rate = 60.0;       ///< frames per second
     std::uint64_t seed = 1;         ///< seed of the noise and the spread of starts

@@ -12,8 +12,8 @@ namespace samara {
 /// The matrix D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms are -D u: u holds
 /// the body's angular velocity and the velocity of its centroid relative to the fluid (rad/s, m/s; body
 /// axes), the load moment about the centroid and force (N m, N). D depends on u; its symmetric part is
-/// positive semidefinite, so the loads never add energy in still fluid. docs/theory, "Loads of a moving
-/// body". Never throws.
+/// positive semidefinite, so the loads never add energy in still fluid. docs/explanation/moving-loads.md
+///. Never throws.
 Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 
 /// (omega, v, q, x, s, m): the velocities as in BodyState, the quaternion (w, x, y, z), the position of the
@@ -25,7 +25,7 @@ MotionVector motion_vector(const BodyState& state) noexcept;
 BodyState body_state(const MotionVector& motion, const SampledTurbulence& sampled_turbulence) noexcept;
 
 /// The body's equations as ordinary differential equations, for general integrators: those that implicit_step
-/// solves, with gravity and the sampled turbulence held (docs/theory, "The equations that are solved").
+/// solves, with gravity and the sampled turbulence held (docs/explanation/model.md#equations-of-motion).
 ///
 /// R(q) is the homogeneous quadratic form of q, also where |q| is not 1 inside a step. Then u K u / 2, |p|^2,
 /// l . p and |q|^2 without loads, and with gravity the total energy, are quadratic in the MotionVector and
@@ -77,7 +77,7 @@ ReferenceResult reference_step(const ImmersedBody& body, const Vector3d& gravity
 
 /// Advances the sampled turbulence: both velocities follow an Ornstein-Uhlenbeck process over the time step
 /// (s) by its exact update, with the rate a = 3/4 C_k epsilon/k and the variance 2 k/3 of each component of
-/// the velocity, and that over L^2 of the rotation. docs/theory, "Langevin".
+/// the velocity, and that over L^2 of the rotation. docs/explanation/noise-and-wake.md.
 SampledTurbulence advance_sampled_turbulence(const ImmersedBody& body, const TurbulenceLevel& level,
                                              const SampledTurbulence& seen, double time_step,
                                              const Noise& noise, std::uint64_t step) noexcept;

@@ -1,127 +1,167 @@
 #!/usr/bin/python3
-"""Error of the motion against time, from inertia alone to full CFD, on the reference falls and on those three times as long.
+"""Error of the motion against time, from inertia alone to full CFD, on the nine held-out falls.
 
-    motion_report.py BIN BODIES FOLDER    flies the falls whose bodies are in BODIES, writes FOLDER/motion.{csv,png}, motion-long.csv
-                                          and the tables of README.md
+    motion_report.py BIN BODIES WORK    solves what is missing in WORK by full CFD, simulates the falls by every model, and writes
+                                        motion.csv, motion.png and the table of README.md
+    motion_report.py                    draws the picture and writes the table again from the rows of the last run
 
-BODIES: as falls_report.py leaves it, NAME.body.h5 at quality standard, and NAME-preview.body.h5, which is baked here
-if it is missing. Bodies that are not there are left out. Run from the project's folder.
+BODIES: as falls_report.py leaves it, NAME.body.h5 at quality standard, and NAME-preview.body.h5, which is baked here if it is missing.
+The references are docs/studies/motion/fine: the falls of docs/studies/test-falls on 60,000 cells. The rows of MuJoCo's model are made
+where BIN has samara-peer-falls (./dev bench builds it). Run from the project's folder.
 """
 
 import csv
 import glob
 import os
 import re
+import shutil
+import statistics
 import sys
 import tempfile
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import BODIES as SHAPES  # noqa: E402
-from falls_report import FALLS, SCENES, baked_file, run, scene_with, worst_figure  # noqa: E402
-from long_falls_report import FOLDER as LONG  # noqa: E402
-from report_tables import mark, write_tables  # noqa: E402
+from falls_report import FIGURES, run, scene_with, worst_figure, written  # noqa: E402
+from peers_report import DEFAULT, DEFAULT_COEFFICIENTS, OTHERS, searched, stem_of  # noqa: E402
+from references_report import CLOSURE, solved  # noqa: E402
+from report_tables import mark, table, write_tables  # noqa: E402
 from study_pictures import picture_of  # noqa: E402
+from surface_report import plain, shape_of  # noqa: E402
+from test_falls_report import FOLDER as FALLS  # noqa: E402
+from test_falls_report import SCENES, file_of  # noqa: E402
 
-# The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of
-# the scene are made one, and how many runs are flown: more than one with noise, as a scene is by default.
+FOLDER = "docs/studies/motion"
+FINE, REFERENCE_CELLS, OTHER_CELLS = f"{FOLDER}/fine", 60000, 20000
+COARSE_CELLS = (6000, OTHER_CELLS)
+# The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of the scene are
+# made one, and how many runs are simulated: more than one with noise.
 MODELS = (
-    ("inertia alone", {"loads": "none"}, "standard", 1, 1),
-    ("drag coefficient 1", {"loads": "coefficients"}, "standard", 1, 1),
-    ("preview tables", {}, "preview", 1, 1),
-    ("standard tables with default coefficients", {"dynamic_coefficients": "default"}, "standard", 1, 1),
-    ("standard tables with identified coefficients", {}, "standard", 1, 1),
-    ("the same with five times the step", {}, "standard", 5, 1),
-    ("the same with noise (20 runs)", {"turbulence": "table"}, "standard", 1, 20),
+    ("inertia alone", {"loads": "none"}, "surface", 1, 1),
+    ("drag coefficient 1", {"loads": "coefficients"}, "surface", 1, 1),
+    ("the paper as printed (20 runs)", {"loads": "coefficients", "turbulence": "table", "langevin": "body-velocity"}, "standard", 1, 20),
+    ("no bake", {"loads": "surface"}, "surface", 1, 1),
+    ("preview bake", {}, "preview", 1, 1),
+    ("standard bake", {}, "standard", 1, 1),
+    ("standard bake, five times the step", {}, "standard", 5, 1),
+    ("standard bake with noise (20 runs)", {"turbulence": "table"}, "standard", 1, 20),
 )
-CFD = "full CFD"
+HEADS = ["fall", "model", "seconds_per_simulated_second", "worst_error", "regime", "regime_reference", "agrees",
+         *(f"{figure}{what}" for figure in FIGURES for what in ("_difference", "_uncertainty"))]
+
+
+def cfd(cells):
+    return f"full CFD, {cells:,} cells"
 
 
 def preview_of(programs, folder, body):
-    file = os.path.join(folder, f"{body}-preview.body.h5")
+    name = body.removeprefix("samara:")
+    file = os.path.join(folder, f"{name}-preview.body.h5")
     if not os.path.exists(file):
-        shape, options = SHAPES[body]
-        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "preview", "--json"] + options)
+        shape, options = SHAPES.get(body, (shape_of(body), ["--density", "1300"]))
+        run([f"{programs}/samara", "bake", shape, "-o", file, "--quality", "preview", "--json", *options])
     return file
 
 
-def flown(programs, scene, keys, file, steps, runs, folder, falls):
-    """The comparison of a scene with other keys with its reference, and the seconds for a simulated second."""
-    changed = scene_with(scene, {"shape": os.path.abspath(file)} | keys, folder, steps, falls)
-    motion = os.path.join(folder, "motion.h5")
-    words = [f"{programs}/samara", "simulate", changed, "-o", motion, "--threads", "1", "--runs", str(runs), "--json"]
-    seconds = min(run(words)["seconds"] for _ in range(5))
-    with open(changed) as opened:
-        duration = float(re.search(r"duration = ([0-9.]+)", opened.read()).group(1))
-    return run([f"{programs}/samara", "compare", motion, f"{falls}/{scene}.h5", "--json"]), seconds / duration / runs
+def duration_of(scene):
+    with open(f"{FALLS}/{scene}.toml", encoding="utf-8") as file:
+        return float(re.search(r"duration = ([0-9.]+)", file.read()).group(1))
 
 
-def cpu_seconds(falls):
-    """CPU seconds that a simulated second of each fall of a folder took by full CFD."""
-    costs = {}
-    with open(f"{falls}/references.csv", newline="") as file:
-        for row in csv.DictReader(file):
-            with open(f"{falls}/{row['fall']}.toml") as scene:
-                duration = float(re.search(r"duration = ([0-9.]+)", scene.read()).group(1))
-            costs[row["fall"]] = float(row["cpu_seconds"]) / duration
-    return costs
+def row_of(programs, scene, model, seconds, motion):
+    """The row of a motion beside the reference on the finest mesh."""
+    comparison = run([f"{programs}/samara", "compare", motion, f"{FINE}/{scene}.h5", "--json"])
+    row = [scene, model, seconds, worst_figure(comparison), comparison["motion"]["regime"], comparison["reference"]["regime"],
+           "yes" if comparison["agrees"] and comparison["regimes_agree"] else "no"]
+    for figure in FIGURES:
+        measure = comparison["measures"].get(figure) or {}
+        magnitude = abs((measure.get("reference") or {}).get("value") or 0.0)
+        row += [measure.get("relative_difference"), (measure.get("reference_uncertainty") or 0.0) / magnitude if magnitude else None]
+    return row
 
 
-def fly(programs, bodies, falls, target):
-    """Flies every fall of a folder by every model, and writes the rows."""
+def by_cfd(programs, work):
+    """The falls on each mesh; the reference, if it is missing, gets what it differs by from the next coarser one."""
     rows = []
-    costs = cpu_seconds(falls)
+    os.makedirs(FINE, exist_ok=True)
+    for scene in SCENES:
+        motions = {cells: solved(programs, work, scene, cells, CLOSURE, falls=FALLS) for cells in (*COARSE_CELLS, REFERENCE_CELLS)}
+        if not os.path.exists(f"{FINE}/{scene}.h5"):
+            run([f"{programs}/samara", "validate", motions[REFERENCE_CELLS][0], "-o", f"{work}/{scene}-fine.h5", "--other-mesh",
+                 motions[OTHER_CELLS][0], "--json"])
+            shutil.copyfile(f"{work}/{scene}-fine.h5", f"{FINE}/{scene}.h5")
+        for cells, (motion, result) in motions.items():
+            rows.append(row_of(programs, scene, cfd(cells), result["cpu_seconds"] / duration_of(scene), motion))
+    return rows
+
+
+def by_runtime(programs, bodies):
+    rows = []
     with tempfile.TemporaryDirectory() as work:
         for scene, body in SCENES.items():
-            if not os.path.exists(baked_file(bodies, body)):
-                print(f"{scene}: no {baked_file(bodies, body)}, left out")
-                continue
-            for model, keys, quality, steps, runs in MODELS:
-                file = baked_file(bodies, body) if quality == "standard" else preview_of(programs, bodies, body)
-                comparison, seconds = flown(programs, scene, keys, file, steps, runs, work, falls)
-                agrees = comparison["motion"]["regime"] == comparison["reference"]["regime"]
-                rows.append([scene, model, seconds, worst_figure(comparison), comparison["motion"]["regime"],
-                             "yes" if agrees else "no"])
+            files = {"surface": plain(programs, shape_of(body), work), "preview": preview_of(programs, bodies, body),
+                     "standard": file_of(programs, bodies, body)}
+            for model, keys, file, steps, runs in MODELS:
+                changed = scene_with(scene, {"shape": os.path.abspath(files[file])} | keys, work, steps, FALLS)
+                words = [f"{programs}/samara", "simulate", changed, "-o", f"{work}/motion.h5", "--threads", "1", "--runs", str(runs),
+                         "--json"]
+                seconds = min(run(words)["seconds"] for _ in range(5)) / duration_of(scene) / runs
+                rows.append(row_of(programs, scene, model, seconds, f"{work}/motion.h5"))
                 print(*rows[-1])
-            rows.append([scene, CFD, costs[scene], 0.0, comparison["reference"]["regime"], "yes"])
-    with open(target, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["fall", "model", "seconds_per_simulated_second", "error", "regime", "regime_agrees"])
-        writer.writerows([[f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row] for row in rows])
+    return rows
 
 
-def table_of(rows_file):
-    """A table of README.md."""
-    with open(rows_file, newline="") as file:
-        rows = list(csv.DictReader(file))
-    falls = list(dict.fromkeys(row["fall"] for row in rows))
-    lines = ["| model | s for a simulated second | faster than full CFD | " + " | ".join(falls) + " | mean | regimes right |",
-             "|---" * (len(falls) + 5) + "|"]
-    of_cfd = [float(row["seconds_per_simulated_second"]) for row in rows if row["model"] == CFD]
+def by_mujoco(programs):
+    """MuJoCo's model with its default coefficients, and with those fitted for each shape on falls seen before."""
+    if not os.path.exists(f"{programs}/samara-peer-falls"):
+        return []
+    rows, found = [], searched(programs, "docs/studies/peers", of_others=True)["best_by_shape"]
+    with tempfile.TemporaryDirectory() as work:
+        for scene, body in SCENES.items():
+            for model, coefficients in ((DEFAULT, DEFAULT_COEFFICIENTS), (OTHERS, found[stem_of(body)]["coefficients"])):
+                flown = run([f"{programs}/samara-peer-falls", f"{FALLS}/{scene}.toml", "--model", "mujoco", "-o", work, "--json",
+                             "--coefficients", ",".join(map(str, coefficients))])["falls"][0]
+                seconds = flown["seconds_per_simulated_second"]
+                if flown["broke"]:
+                    rows.append([scene, model, seconds, 1.0, "breaks", "", "no"] + [None] * 2 * len(FIGURES))
+                else:
+                    rows.append(row_of(programs, scene, model, seconds, f"{work}/{scene}.h5"))
+    return rows
+
+
+def summary(rows):
+    """A line for each model: medians with their quartiles, and how many falls are right."""
+    lines = []
     for model in dict.fromkeys(row["model"] for row in rows):
         of_model = [row for row in rows if row["model"] == model]
-        seconds = [float(row["seconds_per_simulated_second"]) for row in of_model]
-        errors = [float(row["error"]) for row in of_model]
-        mean = sum(seconds) / len(seconds)
-        lines.append(f"| {model} | {mean:.2g} | {sum(of_cfd) / len(of_cfd) / mean:,.0f} | " +
-                     " | ".join(f"{100 * error:.0f} %" for error in errors) +
-                     f" | {100 * sum(errors) / len(errors):.0f} % | "
-                     f"{sum(row['regime_agrees'] == 'yes' for row in of_model)} of {len(of_model)} |")
-    return "\n".join(lines) + "\n"
+        seconds = statistics.median(float(row["seconds_per_simulated_second"]) for row in of_model)
+        worst = sorted(float(row["worst_error"]) for row in of_model)
+        descent = [abs(float(row["descent_speed_difference"])) for row in of_model if row["descent_speed_difference"]]
+        is_reference = model == cfd(REFERENCE_CELLS)
+        low, middle, high = statistics.quantiles(worst, n=4, method="inclusive")
+        lines.append([model, f"{seconds:.2g}"] + (["the reference"] + ["-"] * 4 if is_reference else [
+            f"{100 * middle:.0f} %", f"{100 * low:.0f} to {100 * high:.0f} %", f"{100 * statistics.mean(descent):.0f} %",
+            f"{sum(row['regime'] == row['regime_reference'] for row in of_model)} of {len(of_model)}",
+            f"{sum(row['agrees'] == 'yes' for row in of_model)} of {len(of_model)}"]))
+    return table(["model", "s for a simulated second", "worst metric: median", "quartiles", "descent: mean", "regimes right",
+                  "within 10, 20, 30 %"], lines)
 
 
-def main():
-    if len(sys.argv) != 4:
-        sys.exit(__doc__.strip())
-    programs, bodies, folder = sys.argv[1:]
-    tables = []
-    for falls, name in ((FALLS, "motion.csv"), (LONG, "motion-long.csv")):
-        fly(programs, bodies, falls, f"{folder}/{name}")
-        tables.append(table_of(f"{folder}/{name}"))
-    write_tables(f"{folder}/README.md", tables, mark("falls"))
-    picture = f"{folder}/motion"
-    picture_of("motion", f"{picture}.csv", f"{picture}.png")
-    print(f"Written: motion.csv, motion-long.csv, README.md and motion.png in {folder}")
+def main(words):
+    if len(words) not in (1, 4):
+        sys.stderr.write(__doc__)
+        return 2
+    if len(words) == 4:
+        programs, bodies, work = words[1:]
+        os.makedirs(work, exist_ok=True)
+        rows = by_cfd(programs, work)
+        written(f"{FOLDER}/motion.csv", [HEADS] + by_runtime(programs, bodies) + by_mujoco(programs) + rows)
+    with open(f"{FOLDER}/motion.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    write_tables(f"{FOLDER}/README.md", [summary(rows)], mark("motion"))
+    if len(words) == 4:
+        picture_of("motion", f"{FOLDER}/motion.csv", f"{FOLDER}/motion.png")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main(sys.argv))

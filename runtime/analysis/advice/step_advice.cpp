@@ -31,7 +31,8 @@ constexpr int fewest_halvings = 4;         // of the longest step, down to the f
 constexpr int most_halvings = 14;
 constexpr int truth_halvings = 2;        // of the finest step that is judged, to the step of the reference
 constexpr double least_rotation = 0.01;  // speed of a tip, relative to the body's: less is not judged
-constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/explanation/model.md#langevin
+constexpr double turbulence_rate =
+    0.75 * kolmogorov_constant;  // times epsilon/k: docs/explanation/noise-and-wake.md#seen-fluid
 
 /// Simulates one body at several steps.
 class JudgedBody {

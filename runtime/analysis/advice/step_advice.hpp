@@ -38,8 +38,8 @@ struct StepAdvice {
 /// is noise the windows begin at the poses of a simulation with it, and the error of the rms angular speed is
 /// held to the same tolerance: noise rotates a body for as long as its step lets the rotation last.
 /// Turbulence of the rate a allows the step sqrt(12 tolerance)/a: between two steps the sampled turbulence is
-/// interpolated linearly, which makes the diffusion by it (a h)^2/12 too large (docs/explanation/model.md#the-step).
-/// Deterministic; `threads`: 0 for all cores.
+/// interpolated linearly, which makes the diffusion by it (a h)^2/12 too large
+/// (docs/explanation/integrator.md#the-step). Deterministic; `threads`: 0 for all cores.
 StepAdvice advise_step(const Scene& scene, const std::vector<LoadedBody>& loaded, int threads);
 
 /// Returns the advice as a line of text: the step, its error, and its limit.

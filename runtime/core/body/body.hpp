@@ -56,7 +56,7 @@ const char* name_of(Symmetry::Type type);
 /// the centroid of the volume, for a fluid of density 1 kg/m^3. Blocks: m^5, m^4, m^3.
 struct KirchhoffTensor {
     Matrix6d matrix = Matrix6d::Zero();  ///< symmetric 6x6 (rho_f = 1 kg/m^3)
-    double error_estimate = 0.0;         ///< relative tensor error (docs/theory, measures)
+    double error_estimate = 0.0;         ///< relative tensor error (docs/reference/metrics.md)
     double asymmetry = 0.0;              ///< relative asymmetry before it was symmetrised
     int triangles = 0;                   ///< of the finest surface used
     std::string method;                  ///< in words: the boundary elements that were used

@@ -12,7 +12,8 @@ namespace samara {
 inline constexpr double motion_onset = 0.03;
 
 /// The distance over which transport forms behind a body that starts in fluid at rest, relative to the body's
-/// extent along its path (docs/theory, "A wake that forms"; chosen in docs/studies/falls, "The start").
+/// extent along its path (docs/explanation/moving-loads.md#a-wake-that-forms; chosen in docs/studies/falls,
+/// "The start").
 inline constexpr double wake_formation_lengths = 1.0;
 
 /// The distance over which the steady translation's own moment returns behind a body that no longer swings,
@@ -25,10 +26,10 @@ inline constexpr double settling_length_of_falls = 20.0;
 inline constexpr double settling_length_of_alike_axes = 5.0;
 
 /// The coefficients of the loads of a free body beyond the tabulated ones of a steady translation
-/// (docs/theory, "Loads of a moving body"). None but f changes a steady translation without rotation. Body
-/// axes about the centroid of the volume; rho is the fluid's density, v and omega are relative to the fluid,
-/// H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip speed c |omega| of the body's own rotation: the effect of
-/// turbulence is in the table already. In still fluid both rotations are one.
+/// (docs/explanation/moving-loads.md#the-terms). None but f changes a steady translation without rotation.
+/// Body axes about the centroid of the volume; rho is the fluid's density, v and omega are relative to the
+/// fluid, H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip speed c |omega| of the body's own rotation: the
+/// effect of turbulence is in the table already. In still fluid both rotations are one.
 struct DynamicCoefficients {
     /// T (m^3), symmetric: separated flow adds the force rho omega x (T v) and the moment rho v x (T v),
     /// which together do no work. T = M, the added mass, cancels that of the potential flow.

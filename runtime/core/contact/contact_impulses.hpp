@@ -35,7 +35,8 @@ Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const 
                         const Vector6d& velocity, ContactRecord* record = nullptr) noexcept;
 
 /// The lever of the load at a contact point, relative to the bounding radius: it stops a ball that rolls and
-/// a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm (docs/explanation/model.md#ground).
+/// a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm
+/// (docs/explanation/integrator.md#ground).
 inline constexpr double rolling_resistance = 0.005;
 inline constexpr std::size_t most_contacts = 16;
 

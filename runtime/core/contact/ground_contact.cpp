@@ -6,7 +6,7 @@
 namespace samara {
 namespace {
 
-// Chosen, not derived (docs/explanation/model.md#ground): far below what a picture shows.
+// Chosen, not derived (docs/explanation/integrator.md#ground): far below what a picture shows.
 constexpr double touching = 1e-5;  // gap that counts as none, relative to the bounding radius
 // gap of points that hold a body at rest, relative to the bounding radius
 constexpr double supporting = 1e-4;

@@ -38,7 +38,7 @@ Ground ground_in_flow(const Surroundings& surroundings, double begin, double end
 
 /// The kinetic energy below which a body that the ground can hold comes to rest, relative to the work of its
 /// load along the bounding radius: a body that has fallen a millionth of that radius is faster
-/// (docs/explanation/model.md#ground).
+/// (docs/explanation/integrator.md#ground).
 inline constexpr double resting_energy = 1e-6;
 
 /// Corrects velocity and pose of a body after an implicit step of `time_step` (s), before which its state was

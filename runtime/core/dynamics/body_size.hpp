@@ -9,8 +9,8 @@ namespace samara {
 /// Returns the state, in the shape's own lengths and times, of a body of that size with this state in the
 /// world's. A body of `size` times the shape's lengths and of its density moves, in the same fluid, like the
 /// shape itself with all lengths over size, all times over size^2 and gravity times size^3: Reynolds numbers,
-/// Froude numbers and ratios of mass are the same (docs/explanation/model.md#sizes). So one prepared body serves all
-/// sizes.
+/// Froude numbers and ratios of mass are the same (docs/explanation/moving-loads.md#sizes). So one prepared
+/// body serves all sizes.
 BodyState in_own_units(const BodyState& state, double size) noexcept;
 /// Returns the state in the world's lengths and times: the inverse of in_own_units().
 BodyState in_world_units(const BodyState& state, double size) noexcept;

@@ -25,8 +25,8 @@ struct SurfaceMotion {
 };
 
 /// Returns the defaults for a body whose file holds none, guided by free falls of spheroids and a 1:2:4
-/// ellipsoid in OpenFOAM (docs/theory gives their errors), scaled by the body's own projected areas and its
-/// rotational drag tensor.
+/// ellipsoid in OpenFOAM (docs/explanation/moving-loads.md gives their errors), scaled by the body's own
+/// projected areas and its rotational drag tensor.
 DynamicCoefficients default_dynamic_coefficients(const Body& body);
 
 /// Returns the coefficients that all bodies share beside loads of the surface, scaled by the body's own added

@@ -45,7 +45,7 @@ struct ImmersedBody : TouchingBody {
     /// m^2, body axes: projected areas along the principal axes
     Matrix3d projected_area_tensor = Matrix3d::Zero();
     /// m^2, body axes: d.(squared_formation_length d) is the square of the distance over which a wake forms
-    /// behind a body that moves in the direction d (docs/theory, "A wake that forms").
+    /// behind a body that moves in the direction d (docs/explanation/moving-loads.md#a-wake-that-forms).
     Matrix3d squared_formation_length = Matrix3d::Zero();
     /// Projects an angular velocity onto the part that the flow does not see: about axes across which the
     /// body reaches equally far, as the axis of a body of revolution.
@@ -61,8 +61,8 @@ struct ImmersedBody : TouchingBody {
     std::vector<double> projected_areas;
     std::optional<LoadTables> tables;  ///< where loads or turbulence are from tables
     DynamicCoefficients dynamic;
-    /// m^4, body axes: the least rotational drag of `dynamic` about the direction of motion (docs/theory,
-    /// "Rotation about the direction of motion"); zero beside loads without such a term.
+    /// m^4, body axes: the least rotational drag of `dynamic` about the direction of motion
+    /// (docs/explanation/moving-loads.md); zero beside loads without such a term.
     Matrix3d roll_drag = Matrix3d::Zero();
     std::vector<SteadyPatch> patches{SteadyPatch()};  ///< of the surface; one alone is the whole
 

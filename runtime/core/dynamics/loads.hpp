@@ -8,7 +8,7 @@ namespace samara {
 
 /// Returns the matrices D (6x6, order omega then v) of the loads beyond the Kirchhoff terms: moment about the
 /// centroid and force (N m, N) are -D u. Their symmetric part is positive semidefinite, so the loads never
-/// add energy in still fluid (docs/theory, "Loads of a moving body"). In a fluid that rotates with
+/// add energy in still fluid (docs/explanation/moving-loads.md#the-terms). In a fluid that rotates with
 /// `sampled_rotation` (rad/s, body axes) they are -whole u + relative (sampled_rotation, 0), where u holds
 /// the body's own angular velocity and the velocity of its centroid relative to the fluid, of which
 /// `wake_fluctuation` (m/s, body axes) is the part by its own wake. Never throws.
@@ -18,7 +18,7 @@ LoadMatrices load_matrices(const ImmersedBody& body, const Vector6d& velocity,
                            const WakeShares& shares = {}) noexcept;
 
 /// Returns the share of the wake that has formed, and the length of the heading to the eighth power
-/// (docs/theory, "A wake that forms").
+/// (docs/explanation/moving-loads.md#a-wake-that-forms).
 WakeShares shares_of(const Wake& wake) noexcept;
 
 /// The rates of change of a wake at the velocity u of load_matrices(). Zero where the loads do not depend on

@@ -8,7 +8,8 @@
 
 namespace samara {
 
-/// A part of a body's surface, on which the steady load depends on its own velocity (docs/theory, "Patches").
+/// A part of a body's surface, on which the steady load depends on its own velocity
+/// (docs/explanation/moving-loads.md#patches).
 struct SteadyPatch {
     Vector3d place = Vector3d::Zero();  ///< m, of its centre of area from that of the whole surface
     double share = 1.0;                 ///< of the whole area

@@ -17,9 +17,10 @@ namespace samara {
 /// momenta of body and fluid.
 ///
 /// l' = l x omega + p x v + tau, p' = p x omega + f (the paper's eq. 2 with its labels corrected), weight
-/// less buoyancy, and the loads, in one implicit solve without splitting: docs/theory, "The step". In still
-/// fluid without gravity the energy u K u / 2 never grows, whatever the step; without loads it is conserved
-/// to rounding. Second order in the step. Never throws or allocates. The sampled turbulence is held.
+/// less buoyancy, and the loads, in one implicit solve without splitting:
+/// docs/explanation/integrator.md#the-step. In still fluid without gravity the energy u K u / 2 never grows,
+/// whatever the step; without loads it is conserved to rounding. Second order in the step. Never throws or
+/// allocates. The sampled turbulence is held.
 BodyState implicit_step(const ImmersedBody& body, const Vector3d& gravity, double time_step,
                         const BodyState& state) noexcept;
 
@@ -45,8 +46,8 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
 
 /// Returns the load of the fluid on a body of `size` times the shape's lengths in step number `step` of a
 /// simulation that began at `start` (s), with the turbulence and wind of that step: the equations of
-/// docs/explanation/model.md, "Hosts". The state is in the body's own units (body_size.hpp), start and step are the
-/// world's. Allocates only for a body of another size in constant turbulence.
+/// docs/explanation/integrator.md#host-engines. The state is in the body's own units (body_size.hpp), start
+/// and step are the world's. Allocates only for a body of another size in constant turbulence.
 FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
                         double time_step, const BodyState& state, const Noise& noise, std::uint64_t step);
 

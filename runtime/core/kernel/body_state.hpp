@@ -12,7 +12,7 @@ struct SampledTurbulence {
     Vector3d angular_velocity = Vector3d::Zero();
 };
 
-/// The wake behind a body (docs/theory, "A wake that forms").
+/// The wake behind a body (docs/explanation/moving-loads.md#a-wake-that-forms).
 struct Wake {
     /// The share of the transport of separated flow that has formed: 0 in fluid that was at rest, up to 1.
     double formed = 0.0;
@@ -46,8 +46,9 @@ struct TurbulenceLevel {
     double dissipation_rate = 0.0;
 };
 
-/// The shares of the loads of separation (docs/theory, "A wake that forms"): of the transport, by the wake
-/// that has formed, and of the steady translation's own moment, which is there where the body does not swing.
+/// The shares of the loads of separation (docs/explanation/moving-loads.md#a-wake-that-forms): of the
+/// transport, by the wake that has formed, and of the steady translation's own moment, which is there where
+/// the body does not swing.
 struct WakeShares {
     double transport = 1.0;
     double moment = 1.0;

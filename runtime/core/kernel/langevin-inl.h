@@ -1,6 +1,6 @@
-// The turbulence that a body samples, over one time step (docs/theory, "Langevin"), and its random numbers:
-// Philox4x32-10 (noise.hpp) and Box and Muller's transform. Included once for each instruction set (Highway),
-// hence no plain include guard.
+// The turbulence that a body samples, over one time step (docs/explanation/noise-and-wake.md), and its random
+// numbers: Philox4x32-10 (noise.hpp) and Box and Muller's transform. Included once for each instruction set
+// (Highway), hence no plain include guard.
 #if defined(SAMARA_LANGEVIN_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SAMARA_LANGEVIN_INL_H
 #undef SAMARA_LANGEVIN_INL_H

@@ -1,4 +1,4 @@
-// The fluid's loads beyond the Kirchhoff terms, as a matrix (docs/theory, "Loads of a moving body").
+// The fluid's loads beyond the Kirchhoff terms, as a matrix (docs/explanation/moving-loads.md#the-terms).
 // Included once for each instruction set (Highway), hence no plain include guard.
 #if defined(SAMARA_LOADS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SAMARA_LOADS_INL_H
@@ -196,8 +196,8 @@ HWY_INLINE V share_of(V a, V b) {
     return a / larger(V(tiny), a + b);
 }
 
-/// Adds the part of the rotational drag about the direction of motion that falls lack (docs/theory, "Rotation
-/// about the direction of motion").
+/// Adds the part of the rotational drag about the direction of motion that falls lack
+/// (docs/explanation/moving-loads.md).
 template <class V>
 HWY_INLINE void add_roll_drag(const StepConstants& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
     const Triple<V>& direction = heading.direction;

@@ -1,4 +1,4 @@
-// One implicit step (docs/theory, "The step").
+// One implicit step (docs/explanation/integrator.md#the-step).
 // Included once for each instruction set (Highway), hence no plain include guard.
 #if defined(SAMARA_STEP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SAMARA_STEP_INL_H
@@ -391,7 +391,7 @@ HWY_INLINE bool sees_turbulence(const StepConstants& c) {
 ///
 /// Where the body samples turbulence, the step is taken in the frame of that uniform stream, as in that of a
 /// current: velocities are relative to it, and its acceleration is subtracted from gravity, for body and
-/// displaced fluid alike (docs/theory, "The sampled turbulence"). `push`: null where there is none.
+/// displaced fluid alike (docs/explanation/noise-and-wake.md#seen-fluid). `push`: null where there is none.
 template <class V>
 HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
                               const Stream<V>& stream, const Push<V>* push, StepState<V>& step_state) {

@@ -1,4 +1,4 @@
-// The wind's formulas (docs/theory, "Wind").
+// The wind's formulas (docs/explanation/noise-and-wake.md#wind).
 // Included once for each instruction set (Highway), hence no plain include guard.
 #if defined(SAMARA_WIND_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SAMARA_WIND_INL_H

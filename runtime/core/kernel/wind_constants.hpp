@@ -32,7 +32,7 @@ struct FanConstants {
     double intake;     ///< m: the distance over which the air is drawn in
 };
 
-/// The constants of a wind's formulas (docs/theory, "Wind").
+/// The constants of a wind's formulas (docs/explanation/noise-and-wake.md#wind).
 struct WindConstants {
     enum class Profile { none, logarithmic, power };
     Profile profile = Profile::none;

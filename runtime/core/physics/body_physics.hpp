@@ -21,7 +21,8 @@ enum class Langevin { sampled_turbulence, body_velocity, wake };
 /// defaults where it has none; the defaults; none.
 enum class Dynamic { of_body, by_default, none };
 
-/// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body (docs/explanation/model.md).
+/// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body
+/// (docs/explanation/steady-loads.md#loads-by-coefficients).
 struct CoefficientLoads {
     double drag_coefficient = 1.0;         ///< C_d of eq. 5
     double lift_coefficient = 0.0;         ///< C_l of eq. 5

@@ -19,7 +19,7 @@ struct WindSpan {
     double duration = 0.0;  ///< s: the time between the two
 };
 
-/// A wind that is not uniform and steady, prepared for the steps (docs/theory, "Wind").
+/// A wind that is not uniform and steady, prepared for the steps (docs/explanation/noise-and-wake.md#wind).
 class WindField {
   public:
     /// Prepares the wind. `current` (m/s): the gusts drift with it and with the wind's own velocity.

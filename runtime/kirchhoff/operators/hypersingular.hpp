@@ -28,7 +28,7 @@ struct HypersingularOptions {
 };
 
 /// Computes the Kirchhoff tensor by linear Galerkin elements for the hypersingular equation W phi = -(1/2 +
-/// D') g on flat triangles (docs/theory-kirchhoff), in the form
+/// D') g on flat triangles (docs/explanation/added-mass.md), in the form
 ///   K_ab = <g_a, S g_b> + b_a^T W^-1 b_b,    b_a[i] = <(1/2 + D') g_a, v_i>,
 /// a sum of two positive semidefinite forms however thin the body is. It converges from below where the
 /// surface is kept and the triangles shrink.

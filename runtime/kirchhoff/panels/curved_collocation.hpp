@@ -6,7 +6,8 @@
 namespace samara {
 
 /// Returns the Kirchhoff tensor of a body by direct collocation with a quadratic potential on curved six-node
-/// triangles, fourth order in their size on smooth bodies (docs/theory-kirchhoff). One unknown a vertex.
+/// triangles, fourth order in their size on smooth bodies (docs/explanation/added-mass.md). One unknown a
+/// vertex.
 ///
 /// `surface` is of order 2, closed and outward; coordinates are from the reference point and in units in
 /// which its size is about 1. Throws Error at a degenerate triangle.

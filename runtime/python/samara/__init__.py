@@ -1,4 +1,4 @@
-"""Rigid bodies that fall, flutter and tumble through water and air.
+"""Simulates rigid bodies that fall, flutter and tumble through water and air::
 
     import samara
     scene = samara.Scene({"scene": {"duration": 3, "ground": 0}, "fluid": {"preset": "air"},
@@ -8,9 +8,10 @@
     motion["leaf"].ensemble()        # descent speed, frequency, regimes, landing, ... with their errors
     samara.plot.motion(motion)       # a matplotlib figure
 
-Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Errors are samara.Error,
-whose text is one line that names the place and the remedy; of what was given InputError, a ValueError too; of files that cannot be
-read or written FileError, an OSError too.
+Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Quaternions are x, y, z, w.
+
+Errors are samara.Error, whose text is one line that names the place and the remedy. An error in an input is an InputError, which is
+a ValueError too; that of a file that cannot be read or written is a FileError, an OSError too.
 """
 
 import os as _os
@@ -28,9 +29,12 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
              progress: Optional[Callable[[float, float], object]] = None) -> Motion:
     """Simulates a scene (a Scene, a dict, or the name of a scene file) and returns its Motion.
 
-    runs: repetitions that differ by their noise alone. seed, step: instead of the scene's. threads: 0 for all cores; the motion is the same
-    for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with (done, total)
-    ten times a second at most; what it raises ends the simulation. Other threads of Python go on meanwhile.
+    runs: repetitions that differ by their noise alone. seed, step (s): instead of the scene's. threads: 0 for all cores; the motion is
+    the same for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with
+    (done, total), ten times a second at most; an exception in it ends the simulation. Other threads of Python run meanwhile.
+
+    Raises InputError where the scene or a body is wrong, FileError where a file cannot be read, Error where a body's motion leaves
+    the range of numbers.
     """
     if isinstance(scene, dict):
         scene = Scene(scene)

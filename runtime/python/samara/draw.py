@@ -3,8 +3,8 @@ describes.
 
 JOB holds JSON: "format" (svg, png or html) with "picture" (as samara.plot.draw takes it) or "page" (as
 samara.report.page takes it). Writes OUTPUT, and into SHOWN a JSON object of what the picture shows. The exit status is
-3 where a module is missing, which standard error then names. Nothing of the user's is run or read: neither modules
-beside the caller nor settings of matplotlib. """
+3 where a module is missing, which standard error then names. It reads and runs neither
+modules beside the caller nor the user's settings of matplotlib. """
 
 import json
 import os

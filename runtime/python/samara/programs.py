@@ -1,4 +1,4 @@
-"""plan and bake, which are programs of their own: they need gmsh and OpenFOAM (the package samara-baking)."""
+"""plan and bake, which run the program samara: they need gmsh and OpenFOAM (the package samara-baking)."""
 
 import json
 import os
@@ -60,14 +60,18 @@ def _options(options: dict[str, Any]) -> list[str]:
 
 
 def plan(scene: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
-    """What a scene needs, as a dict: the models that matter and the bake for it. `scene`: a scene file. The options are
-    those of 'samara plan', with underscores: plan("scene.toml", tolerance=0.1)."""
+    """Returns what a scene needs, as a dict: the models that matter, and the cases that its bake starts with.
+
+    scene: a scene file. The options are those of 'samara plan', with underscores: plan("scene.toml", tolerance=0.1). Raises Error
+    where the program is missing or fails."""
     return _run("plan", [scene, *_options(options)], progress)
 
 
 def bake(shape: _Path, output: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
-    """Solves the flow around a shape (or the bodies of a scene) with OpenFOAM into a body file (or a folder), and returns what the
-    program says of it as a dict. It may take minutes to hours; an interrupt keeps what is solved, and the same call goes on from
-    there. progress: called with (done, total) cases. The options are those of 'samara bake', with underscores:
-    bake("leaf.geo", "leaf.body.h5", quality="standard", fluid="air", density=600)."""
+    """Bakes a shape into a body file, or the bodies of a scene into a folder, with OpenFOAM; returns the program's result as a dict.
+
+    It takes minutes to hours. An interrupt keeps the solved cases, and the same call continues from there. progress: called with
+    (done, total) cases. The options are those of 'samara bake', with underscores:
+    bake("leaf.geo", "leaf.body.h5", quality="standard", fluid="air", density=600). Raises Error where the program is missing or
+    fails."""
     return _run("bake", [shape, "-o", output, *_options(options)], progress)

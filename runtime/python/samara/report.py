@@ -1,4 +1,4 @@
-"""The page that `samara report` writes: a bake judged, and why, in one HTML file that needs nothing else."""
+"""Makes the page that `samara report` writes: the verdict on a bake and its reasons, in one self-contained HTML file."""
 
 import base64
 import io
@@ -23,8 +23,8 @@ def page(data: Mapping[str, Any]) -> str:
 
     `data`: name, below (a line under it), version, verdict (grade: good, limited or bad; headline, good_for, not_for,
     findings: what, text, grade) and parts: title, and blocks, each with one of text, list (texts), table (headings,
-    rows of texts, whose first cell names the row) or picture (as samara.plot.draw() takes it) with its `words`; what
-    has a `summary` is folded. All texts are shown as they are. """
+    rows of texts, whose first cell names the row) or picture (as samara.plot.draw() takes it) with its `words`; a block
+    with a `summary` is folded. All texts are escaped. """
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(os.path.dirname(os.path.abspath(__file__))),
                                      autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True,

@@ -122,7 +122,7 @@ Surface with_repeated_triangle(Surface surface) {
     return surface;
 }
 
-/// K' = X^T K X for a reference point moved by `shift` (docs/theory-kirchhoff).
+/// K' = X^T K X for a reference point moved by `shift` (docs/explanation/added-mass.md).
 Matrix6d about_point(const Matrix6d& tensor, const Vector3d& shift) {
     Matrix6d change = Matrix6d::Identity();
     change.bottomLeftCorner<3, 3>() = skew(shift);

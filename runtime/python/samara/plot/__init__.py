@@ -1,4 +1,4 @@
-"""Pictures of motions, bodies and bakes as matplotlib figures.
+"""Draws motions, bodies and bakes as matplotlib figures::
 
     figure = samara.plot.motion(motion)                    # or phase, landing; body="leaf", run=0, copy=3
     figure = samara.plot.polars(samara.Body.read("leaf.body.h5"))  # or sphere, convergence
@@ -6,8 +6,8 @@
     samara.plot.save(figure, "motion.svg")                 # or .png
 
 Each function also takes the dict that the programs hand over as JSON, whose key "picture" names what it shows; draw()
-takes any of these. What the dicts hold is said by the functions of motions, bodies, comparisons and bakes. These
-modules need numpy and matplotlib alone.
+takes any of these. The functions of the modules motions, bodies, comparisons and bakes describe the dicts. These modules
+need only numpy and matplotlib.
 """
 
 import os
@@ -30,7 +30,7 @@ _DRAWERS: dict[str, Callable[[dict[str, Any]], Any]] = {
 
 
 def draw(data: Mapping[str, Any]) -> Any:
-    """Draws what a program handed over: a dict whose "picture" is one of strip, phase, landing, polars, sphere,
+    """Draws the picture that a program handed over: a dict whose "picture" is one of strip, phase, landing, polars, sphere,
     convergence, comparison, plan, meshes, histories. Returns a matplotlib Figure of 2000 x 1300 pixels."""
     with _style.page():
         figure = _DRAWERS[data["picture"]](dict(data))
@@ -63,7 +63,7 @@ def phase(motion: Any, body: Optional[str] = None, *, run: int = 0, copy: int = 
 
 
 def landing(motion: Any, body: Optional[str] = None) -> Any:
-    """Draws where all copies and runs of a body of a samara.Motion come down, from above, with the distributions of the
+    """Draws where all copies and runs of a body of a samara.Motion land, from above, with the distributions of the
     distance from their mean (m) and of the time (s). Returns a matplotlib Figure."""
     return _of_motion("landing", motion, body, 0, 0)
 
@@ -85,7 +85,7 @@ def sphere(body: Any) -> Any:
 
 
 def convergence(body: Any) -> Any:
-    """Draws how far the tables of a samara.Body can be trusted: drag and k over the cells of the meshes, errors by
+    """Draws how accurate the tables of a samara.Body are: drag and k over the cells of the meshes, standard errors by
     source, drag over Reynolds numbers. Returns a matplotlib Figure."""
     return _of_body("convergence", body)
 
@@ -93,7 +93,7 @@ def convergence(body: Any) -> Any:
 def comparison(motion: Any, reference: Any = None, body: Optional[str] = None,
                window: Optional[tuple[float, float]] = None) -> Any:
     """Draws a samara.Motion (or motion file) beside a reference: paths, inclination over time, spectra of the swings,
-    distributions of the inclination. `body`, `window`: as samara.compare has them. Returns a matplotlib Figure."""
+    distributions of the inclination. `body`, `window`: as in samara.compare. Returns a matplotlib Figure."""
     if isinstance(motion, Mapping):
         return draw(motion)
     from samara._samara import _comparison_picture

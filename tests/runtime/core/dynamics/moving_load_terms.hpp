@@ -10,7 +10,7 @@
 #include "support/known_bodies.hpp"
 #include "support/reference_step.hpp"
 
-// The terms of the loads of a rotating body, written out as docs/theory has them ("Loads of a moving body"):
+// The terms of the loads of a rotating body, written out as docs/explanation/moving-loads.md has them:
 // moment about the centroid (N m) and force (N), body axes, of a motion (rad/s, m/s).
 
 namespace samara::test {

@@ -1,4 +1,4 @@
-// Loads of a rotating body: each term is as in docs/theory ("Loads of a moving body"), and does its work.
+// Loads of a rotating body: each term is as in docs/explanation/moving-loads.md, and does its work.
 
 #include <cmath>
 #include <functional>

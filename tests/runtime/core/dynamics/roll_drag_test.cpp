@@ -1,5 +1,4 @@
-// What drags a rotation about the direction of motion (docs/theory, "Rotation about the direction of
-// motion").
+// What drags a rotation about the direction of motion (docs/explanation/moving-loads.md).
 
 #include <random>
 

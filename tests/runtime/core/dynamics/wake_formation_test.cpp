@@ -1,6 +1,6 @@
-// The wake that forms behind a body (docs/theory, "A wake that forms"): until it has, the flow is potential;
-// once the fluid has long met the body from one side, the loads are those of a steady translation; in a swing
-// the steady translation's own moment is not there.
+// The wake that forms behind a body (docs/explanation/moving-loads.md#a-wake-that-forms): until it has, the
+// flow is potential; once the fluid has long met the body from one side, the loads are those of a steady
+// translation; in a swing the steady translation's own moment is not there.
 
 #include <algorithm>
 #include <cmath>
