@@ -12,8 +12,8 @@ namespace samara {
 /// The matrix D (6x6, order omega then v) with which the loads beyond the Kirchhoff terms are -D u: u holds
 /// the body's angular velocity and the velocity of its centroid relative to the fluid (rad/s, m/s; body
 /// axes), the load moment about the centroid and force (N m, N). D depends on u; its symmetric part is
-/// positive semidefinite, so the loads never add energy in still fluid. docs/explanation/moving-loads.md
-///. Never throws.
+/// positive semidefinite, so the loads never add energy in still fluid. docs/explanation/moving-loads.md.
+/// Never throws.
 Matrix6d load_matrix(const ImmersedBody& body, const Vector6d& relative_velocity) noexcept;
 
 /// (omega, v, q, x, s, m): the velocities as in BodyState, the quaternion (w, x, y, z), the position of the

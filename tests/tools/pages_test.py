@@ -2,7 +2,7 @@
 """The commands of the pages run: pages_test.py BIN PYTHON [PAGE...], with the folders of the programs and of the Python module.
 
 Of each page of docs/start, docs/tutorials and docs/how-to, and of the README, the ```sh blocks run in one shell, in an empty folder where
-docs, meshes and runtime link to the project's and samara is on the PATH. A block of another language whose first line is a comment
+docs, meshes and runtime link to the project's, samara is on the PATH and python3 is Debian's. A block of another language whose first line is a comment
 that names a file (# pebble.toml) is saved under that name first. What takes minutes or a machine of its own stands in ```console
 blocks, which are not run.
 """
@@ -41,7 +41,7 @@ def run_page(page, programs, python):
         for part in ("docs", "meshes", "runtime"):
             os.symlink(os.path.join(ROOT, part), os.path.join(folder, part))
         script, count = script_of(file.read(), folder)
-        environment = os.environ | {"PATH": f"{programs}:{os.environ['PATH']}", "PYTHONPATH": python, "HOME": folder,
+        environment = os.environ | {"PATH": f"{programs}:/usr/bin:{os.environ['PATH']}", "PYTHONPATH": python, "HOME": folder,
                                     "SAMARA_CACHE": os.path.join(folder, "cache")}
         result = subprocess.run(["bash", "-xc", script], cwd=folder, env=environment, text=True, check=False,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
