@@ -31,7 +31,8 @@ constexpr int fewest_halvings = 4;         // of the longest step, down to the f
 constexpr int most_halvings = 14;
 constexpr int truth_halvings = 2;        // of the finest step that is judged, to the step of the reference
 constexpr double least_rotation = 0.01;  // speed of a tip, relative to the body's: less is not judged
-constexpr double turbulence_rate = 0.75 * kolmogorov_constant;  // times epsilon/k: docs/explanation/model.md#langevin
+constexpr double turbulence_rate =
+    0.75 * kolmogorov_constant;  // times epsilon/k: docs/explanation/model.md#langevin
 
 /// Simulates one body at several steps.
 class JudgedBody {
@@ -318,7 +319,7 @@ std::string as_text(const StepAdvice& advice) {
     const std::string missed =
         advice.is_within ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
     const std::string limit =
-        advice.limit.empty() ? "the longest there is" : fmt::format("{} allows no longer one", advice.limit);
+        advice.limit.empty() ? "the longest possible" : fmt::format("{} allows no longer step", advice.limit);
     return fmt::format("{:.4g} ms, off by {:.2g} % of the distance covered{}; {}", 1e3 * advice.step,
                        100.0 * advice.error, missed, limit);
 }

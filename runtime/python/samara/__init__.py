@@ -9,8 +9,8 @@
     samara.plot.motion(motion)       # a matplotlib figure
 
 Lengths are in metres, times in seconds, angles in radians, all else in SI units; world axes have z up. Errors are samara.Error,
-whose text is one line that names the place and the remedy; of what was given InputError, a ValueError too; of files that cannot be
-read or written FileError, an OSError too.
+whose text is one line with the place and the remedy: InputError (also a ValueError) for input, FileError (also an OSError) for files
+that cannot be read or written.
 """
 
 import os as _os
@@ -28,9 +28,9 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
              progress: Optional[Callable[[float, float], object]] = None) -> Motion:
     """Simulates a scene (a Scene, a dict, or the name of a scene file) and returns its Motion.
 
-    runs: repetitions that differ by their noise alone. seed, step: instead of the scene's. threads: 0 for all cores; the motion is the same
-    for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with (done, total)
-    ten times a second at most; what it raises ends the simulation. Other threads of Python go on meanwhile.
+    runs: repetitions that differ only in their noise. seed, step: by default those of the scene. threads: 0 for all cores; the motion does
+    not depend on it. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with (done, total) at
+    most ten times a second; an exception from it stops the simulation. Other Python threads continue to run.
     """
     if isinstance(scene, dict):
         scene = Scene(scene)

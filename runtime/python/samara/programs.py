@@ -21,7 +21,7 @@ _Progress = Optional[Callable[[float, float], object]]
 def _run(command: str, arguments: Iterable[_Path], progress: _Progress) -> dict[str, Any]:
     program = shutil.which("samara")
     if program is None:
-        raise Error("samara: the program is not found; install the package samara-baking, or put its folder into PATH")
+        raise Error("samara: the program is not found; install the package samara-baking, or add its folder to PATH")
     words = [program, command, *(os.fspath(argument) for argument in arguments), "--json"]
     with tempfile.TemporaryFile("w+") as told, subprocess.Popen(
         words, stdout=told, stderr=subprocess.PIPE, text=True
@@ -60,14 +60,14 @@ def _options(options: dict[str, Any]) -> list[str]:
 
 
 def plan(scene: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
-    """What a scene needs, as a dict: the models that matter and the bake for it. `scene`: a scene file. The options are
+    """Returns what a scene needs as a dict: the relevant models and the bake. `scene`: a scene file. The options are
     those of 'samara plan', with underscores: plan("scene.toml", tolerance=0.1)."""
     return _run("plan", [scene, *_options(options)], progress)
 
 
 def bake(shape: _Path, output: _Path, *, progress: _Progress = None, **options: Any) -> dict[str, Any]:
-    """Solves the flow around a shape (or the bodies of a scene) with OpenFOAM into a body file (or a folder), and returns what the
-    program says of it as a dict. It may take minutes to hours; an interrupt keeps what is solved, and the same call goes on from
+    """Solves the flow around a shape (or the bodies of a scene) with OpenFOAM, writes a body file (or a folder), and returns the
+    program's JSON result as a dict. It takes minutes to hours; an interrupt keeps solved cases, and the same call continues from
     there. progress: called with (done, total) cases. The options are those of 'samara bake', with underscores:
     bake("leaf.geo", "leaf.body.h5", quality="standard", fluid="air", density=600)."""
     return _run("bake", [shape, "-o", output, *_options(options)], progress)
