@@ -90,7 +90,7 @@ void run_other_program(const std::string& name, char** argv) {
         for (const Command& command : commands) names.emplace_back(command.name);
         const std::string meant = samara::did_you_mean(name, names);
         throw samara::Error(
-            fmt::format("there is no command '{}'{}", name, meant.empty() ? "; see 'samara --help'" : meant));
+            fmt::format("unknown command '{}'{}", name, meant.empty() ? "; see 'samara --help'" : meant));
     }
     ::execv(program->c_str(), argv + 1);
     throw samara::Error(fmt::format("{}: cannot be started: {}", program->string(), std::strerror(errno)));
