@@ -23,7 +23,7 @@ void require_plan_of_body(const std::filesystem::path& folder, const CasePlan& p
                       (plan.axes - body.symmetry.axes).norm() < 1e-6;
     if (!same) {
         throw Error(
-            fmt::format("{}: plan.json and body.body.h5 are of different bodies; make the cases again "
+            fmt::format("{}: plan.json and body.body.h5 belong to different bodies; make the cases again "
                         "with 'samara bake'",
                         folder.string()));
     }
@@ -86,10 +86,9 @@ std::vector<FallRecord> solved_falls(const std::filesystem::path& folder, const 
         } else if (const auto reason = failure_of(folder, fall.name, fall.mesh)) {
             left_out.push_back({fall.name, *reason});
         } else {
-            throw Error(
-                fmt::format("{}: the fall {} is not solved; run 'samara bake' again, which goes on where it "
-                            "stopped",
-                            folder.string(), fall.name));
+            throw Error(fmt::format(
+                "{}: the fall {} is not solved; run 'samara bake' again, which continues where it stopped",
+                folder.string(), fall.name));
         }
     }
     return records;

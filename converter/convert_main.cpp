@@ -122,15 +122,17 @@ std::string with_error(double value, double error) {
 void print_errors(const Conversion& conversion) {
     const LoadTables& tables = *conversion.body.tables;
     print_result(
-        "\nThe errors above are those of the iterations and of the symmetry. Of the tables, root mean "
-        "square\nstandard errors by source, over the quantity's own:\n");
+        "\n"
+        "The errors above include iteration and symmetry. Standard errors of the tables by source, "
+        "relative,\n"
+        "root mean square:\n");
     for (const ErrorShare& share : tables.error_sources) {
         print_result("  {:<14} force {:.2g} %, moment {:.2g} %, k {:.2g} %, epsilon {:.2g} %\n",
                      name_of(share.source), 100.0 * share.force, 100.0 * share.moment,
                      100.0 * share.turbulent_kinetic_energy, 100.0 * share.dissipation_rate);
     }
     for (const LeftOutCase& one : conversion.left_out) {
-        print_result("Left out and filled from the others: {}: {}\n", one.name, one.reason);
+        print_result("Left out and interpolated from the others: {}: {}\n", one.name, one.reason);
     }
 }
 
@@ -183,8 +185,8 @@ std::vector<std::filesystem::path> cases_in_time(const std::filesystem::path& fo
     }
     if (cases.empty()) {
         throw Error(
-            fmt::format("{}: holds no case that was solved in time (rateOfChange in `parameters` is "
-                        "not steadyState) and wrote its forces",
+            fmt::format("{}: holds no unsteady case (rateOfChange in `parameters` other than steadyState) "
+                        "that wrote its forces; solve one",
                         folder.string()));
     }
     std::ranges::sort(cases);
@@ -257,28 +259,30 @@ int run(int argc, const char* const* argv) {
     std::optional<double> begin;
     Arguments arguments("samara convert",
                         "Converts solved OpenFOAM cases to the load and turbulence tables of a body file");
-    arguments.positional("CASES", cases, "the folder NAME.cases that 'samara bake' made, or one of your own");
+    arguments.positional("CASES", cases,
+                         "the folder NAME.cases from 'samara bake', or a folder of your own cases");
     arguments.required_output_option(
-        "-o,--output", output, "the body file to write, NAME.body.h5; or NAME.csv for the cases one by one");
+        "-o,--output", output, "the body file to write, NAME.body.h5; or NAME.csv for a table of the cases");
     arguments.flag("--fluctuations", fluctuations,
-                   "of cases that were solved in time: mean, rms, correlation time and spectrum of each "
-                   "component of force and moment, to NAME.csv and NAME.spectra.csv");
+                   "write mean, rms, correlation time and spectrum of each component of force and moment of "
+                   "unsteady cases to NAME.csv and NAME.spectra.csv");
     arguments.option("--from", begin,
-                     "with --fluctuations: the time (L/U) from which on they are taken; the last two "
-                     "thirds where it is not given",
+                     "with --fluctuations: the start of the averaging window (L/U); by default the last two "
+                     "thirds are used",
                      0.0, 1e9);
     arguments.footer(
         "Reads plan.json, body.body.h5 and every solved case, and writes the body with /tables: force and\n"
-        "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, each with its standard error.\n"
-        "NAME.csv: one row for every solved case, before symmetry and tables, in body axes.\n"
-        "docs/explanation/bake.md says what a folder of cases that you solved yourself must hold.\n"
+        "moment coefficients, k/U^2 and epsilon L/U^3 over all directions, with standard errors. NAME.csv: "
+        "one\n"
+        "row for each solved case, before symmetrisation and interpolation, in body axes.\n"
+        "docs/explanation/bake.md describes the layout of a folder of your own cases.\n"
         "Example: samara convert rubber.cases -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] {
         const bool samples = output.ends_with(".csv");
         if (fluctuations && !samples) {
-            throw Error(fmt::format("{}: fluctuations are a table; name it NAME.csv", output));
+            throw Error(fmt::format("{}: the output of --fluctuations is a table; name it NAME.csv", output));
         }
-        if (begin && !fluctuations) throw Error("--from goes with --fluctuations");
+        if (begin && !fluctuations) throw Error("--from: needs --fluctuations; give both");
         if (!samples && !is_body_file_name(output)) {
             throw Error(
                 fmt::format("{}: the output is a body file or a table of cases; name it NAME.body.h5 "

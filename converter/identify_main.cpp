@@ -45,7 +45,7 @@ std::vector<FallRecord> records_of(const std::string& list) {
 
 nlohmann::json identify(const IdentifyOptions& options, bool leaves_stretch_out, bool quiet) {
     if (!options.output.empty() && !is_body_file_name(options.output)) {
-        throw Error(fmt::format("{}: the name of a body file ends in .body.h5", options.output));
+        throw Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", options.output));
     }
     Body body = read_body_file(options.body);
     if (!body.kirchhoff || !body.tables) {
@@ -72,26 +72,28 @@ nlohmann::json identify(const IdentifyOptions& options, bool leaves_stretch_out,
 
 int run(int argc, const char* const* argv) {
     IdentifyOptions options;
-    Arguments arguments("samara identify", "Identifies a body's dynamic coefficients from solved free falls");
+    Arguments arguments("samara identify",
+                        "Identifies a body's dynamic coefficients from free falls by full CFD");
     arguments.positional("BODY", options.body, "a baked body file (.body.h5)");
-    arguments.positional(
-        "FALLS", options.falls,
-        "folders of solved falls, as NAME.cases/fall_00 of samara bake or samara validate, by commas");
+    arguments.positional("FALLS", options.falls,
+                         "folders of solved falls, separated by commas, such as NAME.cases/fall_00 of samara "
+                         "bake or samara validate");
     arguments.output_option("-o,--output", options.output,
                             "body file to write, with the coefficients (.body.h5)");
-    arguments.option(
-        "--without", options.without,
-        fmt::format("terms to leave out, by commas: {}", fmt::join(MotionParameters::names(), ", ")));
+    arguments.option("--without", options.without,
+                     fmt::format("terms to leave out, separated by commas: {}",
+                                 fmt::join(MotionParameters::names(), ", ")));
     arguments.option(
         "--without-stretch", options.without_stretch,
-        fmt::format("leave out one of the {} stretches of each fall, to see the effect of chance",
+        fmt::format("leave out one of the {} segments of each fall, to estimate the statistical error",
                     identification_stretches),
         0, identification_stretches - 1);
-    arguments.option("--hold", options.hold, "folders of other falls to compare the result with, by commas");
+    arguments.option("--hold", options.hold,
+                     "folders of other falls to compare the result with, separated by commas");
     arguments.footer(
-        "samara bake does this at the qualities standard and high; this program repeats it, from other "
-        "falls, or\n"
-        "without some of the terms (docs/studies/falls).\n");
+        "samara bake identifies them at the qualities standard and high; this program repeats that with "
+        "other\n"
+        "falls, or without some of the terms (docs/studies/falls).\n");
     return run_program(argc, argv, arguments, [&] {
         return identify(options, arguments.given("--without-stretch"), arguments.json());
     });

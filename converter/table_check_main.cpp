@@ -46,32 +46,32 @@ void print_row(const char* name, const QuantityCheck& check) {
 
 void print_check(const TableCheck& check) {
     print_result("{:<14} {:>26} {:>8} {:>9} {:>9} {:>9}\n", "case", "direction of motion", "Reynolds", "|F|",
-                 "off by", "stated");
+                 "off by", "estimate");
     for (const CheckedCase& one : check.cases) {
         print_result("{:<14} ({:7.4f} {:7.4f} {:7.4f}) {:8.0f} {:9.4f} {:9.4f} {:9.4f}\n", one.name,
                      one.direction.x(), one.direction.y(), one.direction.z(), one.reynolds_number,
                      one.value.force.norm(), one.difference.force.norm(), one.stated.force.norm());
     }
-    print_result("\n{:<10} {:>10} {:>10} {:>12}\n", "", "error %", "stated %", "within two %");
+    print_result("\n{:<10} {:>10} {:>10} {:>12}\n", "", "error %", "estimate %", "within two %");
     print_row("force", check.force);
     print_row("moment", check.moment);
     print_row("k", check.turbulent_kinetic_energy);
     print_row("epsilon", check.dissipation_rate);
-    print_result("{:.0f} % of all differences are within two stated standard errors\n",
+    print_result("{:.0f} % of all differences are within two estimated standard errors\n",
                  100.0 * check.within_two);
 }
 
 int run(int argc, const char* const* argv) {
     std::string body_file;
     std::string cases;
-    Arguments arguments("samara check-tables",
-                        "Compares a body's tables with solved cases that they were not made from");
+    Arguments arguments("samara check-tables", "Compares a body's tables with held-out solved cases");
     arguments.positional("BODY", body_file, "NAME.body.h5 with tables");
     arguments.positional(
-        "CASES", cases, "a table of cases (.csv), of 'samara bake --probes' or 'samara convert -o NAME.csv'");
+        "CASES", cases,
+        "a table of cases (.csv), from 'samara bake --probes' or 'samara convert -o NAME.csv'");
     arguments.footer(
-        "Error and stated standard error are root mean squares over the cases: of force and moment over\n"
-        "those of the cases' values; of k and epsilon as logarithms.\n"
+        "Error and estimated standard error are root mean squares over the cases: for force and moment\n"
+        "relative to the root mean square of the values, for k and epsilon of the logarithms.\n"
         "Example: samara bake ball.geo -o probes.csv --quality high --probes 20\n"
         "         samara check-tables ball.body.h5 probes.csv");
     return run_program(argc, argv, arguments, [&] {

@@ -37,17 +37,18 @@ double largest_speed(const WindGrid& grid) {
 
 void reject(const Arguments& arguments, const std::vector<std::string>& options, const std::string& whose) {
     for (const std::string& option : options) {
-        if (arguments.given(option)) throw Error(fmt::format("{}: is for {}", option, whose));
+        if (arguments.given(option))
+            throw Error(fmt::format("{}: applies only to {}; leave it out", option, whose));
     }
 }
 
 WindGrid of_vdb_files(Request& request, const Arguments& arguments) {
-    reject(arguments, {"--box", "--latest"}, "a case of OpenFOAM");
+    reject(arguments, {"--box", "--latest"}, "an OpenFOAM case");
     std::vector<std::filesystem::path> files;
     for (const std::string& input : request.inputs) {
         if (std::filesystem::path(input).extension() != ".vdb") {
-            throw Error(
-                fmt::format("{}: is neither a .vdb file nor the folder of a case of OpenFOAM", input));
+            throw Error(fmt::format(
+                "{}: is neither a .vdb file nor the folder of an OpenFOAM case; give one of these", input));
         }
         files.emplace_back(input);
     }
@@ -71,9 +72,10 @@ Eigen::AlignedBox3d box_of(const std::string& words) {
 }
 
 WindGrid of_case(const Request& request, const Arguments& arguments) {
-    if (request.inputs.size() > 1) throw Error("INPUT: give one case of OpenFOAM alone");
+    if (request.inputs.size() > 1) throw Error("INPUT: give only one OpenFOAM case");
     reject(arguments, {"--grid", "--frame-rate", "--voxel-size"}, ".vdb files");
-    if (!request.vdb.spacing) throw Error("--spacing: is missing; give the metres between the wind's nodes");
+    if (!request.vdb.spacing)
+        throw Error("--spacing: is missing; give the distance between the wind's nodes in metres");
     Progress progress("reading the wind", "times");
     FoamWindOptions options;
     options.spacing = *request.vdb.spacing;
@@ -86,7 +88,7 @@ WindGrid of_case(const Request& request, const Arguments& arguments) {
 
 nlohmann::json run(Request& request, const Arguments& arguments) {
     if (std::filesystem::path(request.output).extension() != ".h5") {
-        throw Error(fmt::format("{}: a wind file's name ends in .h5", request.output));
+        throw Error(fmt::format("{}: the output is a wind file; name it NAME.h5", request.output));
     }
     const WindGrid grid = std::filesystem::is_directory(request.inputs.front())
                               ? of_case(request, arguments)
@@ -120,26 +122,26 @@ int main(int argc, char** argv) {
     Request request;
     Arguments arguments(
         "samara wind",
-        "Makes a wind file, for [wind.file] of a scene, of OpenVDB velocity grids or a case of OpenFOAM.");
+        "Makes a wind file, for [wind.file] of a scene, from OpenVDB velocity grids or an OpenFOAM case.");
     arguments.positionals(
         "INPUT", request.inputs,
-        ".vdb files in the order of time, one alone for a steady wind; or the folder of a solved case");
+        ".vdb files in temporal order, a single one for a steady wind; or the folder of a solved case");
     arguments.required_output_option("-o,--output", request.output, "wind file to write (.h5)");
-    arguments.option(
-        "--grid", request.vdb.grid,
-        "name of the velocity grid, or of three grids NAME.x, NAME.y, NAME.z; by default velocity, vel or v, "
-        "or the only one of vectors");
+    arguments.option("--grid", request.vdb.grid,
+                     "name of the velocity grid, or of three grids NAME.x, NAME.y, NAME.z; by default "
+                     "velocity, vel or v, or the only vector grid");
     arguments.choice("--up", request.up, {"z", "y"},
-                     "the axis that is up in the files: z from Blender, y from Houdini");
-    arguments.option("--frame-rate", request.vdb.frame_rate, "files a second", 1e-6, 1e6);
-    arguments.option("--voxel-size", request.vdb.voxel_size, "metres, of grids that do not say it", 1e-9,
-                     1e6);
-    arguments.option("--spacing", request.vdb.spacing,
-                     "metres between nodes; by default the first .vdb file's voxels; a case needs it", 1e-9,
-                     1e6);
+                     "the vertical axis of the files: z from Blender, y from Houdini");
+    arguments.option("--frame-rate", request.vdb.frame_rate, "files per second", 1e-6, 1e6);
+    arguments.option("--voxel-size", request.vdb.voxel_size, "voxel size of grids that do not define it, m",
+                     1e-9, 1e6);
+    arguments.option(
+        "--spacing", request.vdb.spacing,
+        "distance between nodes, m; by default the voxel size of the first .vdb file; required for a case",
+        1e-9, 1e6);
     arguments.option("--box", request.box,
-                     "X0,Y0,Z0,X1,Y1,Z1: where nodes are (m, z up); by default around a case's mesh");
-    arguments.flag("--latest", request.latest, "a case's last time alone, as a steady wind");
+                     "X0,Y0,Z0,X1,Y1,Z1: the box of the nodes (m, z up); by default around a case's mesh");
+    arguments.flag("--latest", request.latest, "use only a case's last time, as a steady wind");
     arguments.footer(
         "Example: samara wind gust.0001.vdb gust.0002.vdb gust.0003.vdb -o gust.h5 --frame-rate 24\n"
         "         samara wind cases/alley -o alley.h5 --spacing 0.25 --box -5,-5,0,5,5,4\n"

@@ -66,15 +66,14 @@ Inflow inflow_of(const BakeOptions& options) {
 
 void require_falls(const BakeOptions& options, const Arguments& arguments) {
     if (arguments.given("--density-to") && !arguments.given("--density")) {
-        throw Error(
-            fmt::format("{}: --density-to is the other end of a range; give --density too", options.input));
+        throw Error(fmt::format("{}: --density-to needs --density; give both", options.input));
     }
     if (quality_of(options).falls > 0) return;
     for (const char* option : {"--density-to", "--fall-step"}) {
         if (!arguments.given(option)) continue;
         throw Error(
-            fmt::format("{}: {} is of the falls that coefficients are identified from, and this bake has "
-                        "none; bake at standard or high, without --falls none",
+            fmt::format("{}: {} applies to falls, and this bake solves none; leave it out, or bake at "
+                        "standard or high, without --falls none",
                         options.input, option));
     }
 }
@@ -115,8 +114,9 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
     if (!is_scene(options.input)) {
         for (const char* option : {"--tolerance", "--budget", "--rounds", "--whole-grid"}) {
             if (arguments.given(option)) {
-                throw Error(fmt::format("{}: {} is of a scene; a shape is baked in all directions",
-                                        options.input, option));
+                throw Error(fmt::format(
+                    "{}: {} applies to scenes only, as a shape is baked in all directions; leave it out",
+                    options.input, option));
             }
         }
         require_falls(options, arguments);
@@ -125,17 +125,18 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
     for (const char* option : {"--fluid", "--density", "--density-to", "--scale"}) {
         if (arguments.given(option)) {
             throw Error(
-                fmt::format("{}: the scene says which fluid, density and scale its bodies have; drop {}",
+                fmt::format("{}: the scene defines fluid, density and scale of its bodies; leave {} out",
                             options.input, option));
         }
     }
     if (options.probes > 0) {
-        throw Error(fmt::format("{}: --probes takes a shape or a body file, not a scene", options.input));
+        throw Error(fmt::format("{}: --probes needs a shape or a body file, not a scene; give one of these",
+                                options.input));
     }
     if (fs::path(options.output).extension() == ".h5") {
-        throw Error(
-            fmt::format("{}: the output for a scene is a folder, for it gets one body file for each body",
-                        options.output));
+        throw Error(fmt::format(
+            "{}: the output for a scene is a folder with one body file for each body; give a folder",
+            options.output));
     }
     require_falls(options, arguments);
     SceneBakeOptions scene{.quality = quality_of(options),
@@ -180,72 +181,73 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
 
 int run(int argc, const char* const* argv) {
     BakeOptions options;
-    Arguments arguments("samara bake",
-                        "Bakes a body: mesh, Kirchhoff tensor, OpenFOAM cases, load and turbulence tables");
+    Arguments arguments(
+        "samara bake",
+        "Bakes a body: mesh, Kirchhoff tensor, load and turbulence tables from OpenFOAM cases");
     arguments.positional("INPUT", options.input,
                          "a scene (.toml), or a shape (.geo .stl .obj .step ...) or body file (.body.h5)");
     arguments.required_option("-o,--output", options.output,
-                              "NAME.body.h5; for a scene the folder of its body files");
-    arguments.choice("--fluid", options.fluid, {"water", "air"}, "that the shape falls in, at 20 C");
+                              "NAME.body.h5; for a scene, the folder for its body files");
+    arguments.choice("--fluid", options.fluid, {"water", "air"}, "fluid around the shape, at 20 C");
     arguments.option("--density", options.density,
-                     "of the body (kg/m^3); of a body file that has a mass: that", 1e-3, 1e6);
-    arguments.option(
-        "--density-to", options.other_density,
-        "solves the falls at --density and at this density in turn, and the tables for the faster "
-        "of the two: one body file for all densities between",
-        1e-3, 1e6);
-    arguments.option("--scale", options.scale, "metres for one unit of the shape file", 1e-12, 1e12);
-    arguments.option("--jobs", options.jobs, "cases solved at once", 1, 4096);
+                     "density of the body (kg/m^3); by default that of the body file", 1e-3, 1e6);
+    arguments.option("--density-to", options.other_density,
+                     "solves falls at --density and at this density alternately, and the tables for the "
+                     "faster of the two: one body file for all densities in between",
+                     1e-3, 1e6);
+    arguments.option("--scale", options.scale, "size of the shape file's unit, m", 1e-12, 1e12);
+    arguments.option("--jobs", options.jobs, "cases solved in parallel", 1, 4096);
     arguments.option("--ranks", options.ranks,
-                     "processes that share each case, by MPI: for cases too large for one core; the cases "
-                     "solved at once become fewer, unless --jobs says how many",
+                     "MPI processes for each case, for cases too large for one core; by default fewer cases "
+                     "are then solved in parallel",
                      1, 1024);
     arguments.option(
         "--cluster", options.cluster,
-        "a command of Slurm that submits a job, as \"sbatch --partition=short\": solves each case "
-        "as a job there, --jobs of them at once; the output is in a folder that the nodes share");
-    arguments.choice(
-        "--quality", options.quality, bake_quality_names(),
-        "smoke: seconds, for tests only; preview: half a minute on two cores; standard: three meshes "
-        "and Reynolds numbers; high: four meshes, three closures");
+        "Slurm command that submits a job, such as \"sbatch --partition=short\": solves each case as a "
+        "cluster job, --jobs in parallel; the output must be in a folder that the nodes share");
+    arguments.choice("--quality", options.quality, bake_quality_names(),
+                     "smoke: seconds, for tests only; preview: half a minute on two cores; standard: three "
+                     "meshes and Reynolds numbers; high: four meshes and three closures");
     arguments.choice("--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
-                     "closure that forces, moments and falls are solved by; where it is not given, "
-                     "kOmegaSSTLM at standard and "
-                     "high and kEpsilon below. k and epsilon are kEpsilon's, in cases of their own beside");
+                     "closure for forces, moments and falls; by default kOmegaSSTLM at standard and high, "
+                     "kEpsilon at lower qualities. k and epsilon always come from separate kEpsilon cases");
     arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM", no_falls},
-                     "closure that the falls are solved by; else that of the loads. Their mesh is that of "
-                     "samara validate, but for kEpsilon's beside loads by kEpsilon. "
-                     "none: no falls, and so the coefficients that bodies have in common");
+                     "closure for the falls; by default that of the loads. The mesh is that of samara "
+                     "validate, except for kEpsilon with loads by kEpsilon. none: no falls; the body gets "
+                     "the default dynamic coefficients");
     arguments.option("--fall-step", options.fall_step,
-                     "relative to the automatic step of a fall: 0.5 for a fall whose momenta do not balance",
+                     "time step of the falls relative to the automatic step; use 0.5 for a fall that does "
+                     "not conserve momentum",
                      0.05, 4.0);
-    arguments.choice("--inflow", options.inflow, {"still", "paper"},
-                     "turbulence of the fluid around: still: 1 % intensity; paper: its eq. 13, 100 %");
+    arguments.choice(
+        "--inflow", options.inflow, {"still", "paper"},
+        "turbulence of the ambient fluid: still: 1 % intensity; paper: eq. 13 of the paper, 100 %");
     arguments.option("--probes", options.probes,
-                     "instead of tables: so many cases between the tables' nodes, to hold tables against; "
-                     "the output is NAME.csv",
+                     "instead of tables, solve this many cases between the tables' nodes, to test tables "
+                     "with; the output is NAME.csv",
                      1, 1000);
     arguments.option(
         "--tolerance", options.tolerance,
-        "for a scene: relative error of the descent speed that the tables' directions may leave; "
-        "twice that of the frequency, three times of amplitude and rms angular speed",
+        "for a scene: tolerance of the descent speed for errors from the number of directions, relative; the "
+        "frequency may be off by twice, amplitude and rms angular speed by three times as much",
         1e-4, 10.0);
-    arguments.option("--budget", options.budget,
-                     "for a scene: estimated CPU seconds for each body at which no more cases are added", 0.0,
-                     1e9);
-    arguments.option("--rounds", options.rounds, "for a scene: the most rounds of cases", 1, 100);
+    arguments.option(
+        "--budget", options.budget,
+        "for a scene: budget of CPU seconds for each body (estimated); no cases are added beyond it", 0.0,
+        1e9);
+    arguments.option("--rounds", options.rounds, "for a scene: maximum number of rounds of cases", 1, 100);
     arguments.flag("--whole-grid", options.whole_grid,
-                   "for a scene: solves all directions, not only those that its bodies visit");
+                   "for a scene: solve all directions, not only those in which its bodies move");
     arguments.flag("--dry-run", options.dry_run,
-                   "only say what would be solved, how long it would take and how much of the disk");
+                   "report what would be solved, with its time and disk space, and stop");
     arguments.footer(fmt::format(
         "A scene's bodies are baked in rounds, in the directions in which they move ('samara plan' shows "
         "them);\n"
-        "a shape in all directions. Its tables are made at the Reynolds number of the terminal speed, "
-        "estimated\n"
-        "with a drag coefficient of {:.1f} on the largest projected area. The cases are kept in NAME.cases "
-        "beside the output: plain\n"
-        "OpenFOAM cases with their logs, of which the next run reuses those whose inputs are unchanged.\n"
+        "a shape is baked in all directions. The tables are for the Reynolds number of the terminal speed,\n"
+        "estimated with a drag coefficient of {:.1f} on the largest projected area. The cases are kept in\n"
+        "NAME.cases beside the output, as plain OpenFOAM cases with logs; the next run reuses those whose "
+        "inputs\n"
+        "are unchanged.\n"
         "Needs OpenFOAM and Snakemake (Debian: apt install openfoam snakemake).\n"
         "Examples: samara bake meshes/shapes/ellipsoid.geo -o rubber.body.h5 --density 1200 --jobs 2\n"
         "          samara bake scene.toml -o bodies",

@@ -67,7 +67,7 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     json["name"] = request.name;
     if (!preparation.scene_plan) {
         if (!quiet)
-            print_result("{}: asks for no tables: only mesh and Kirchhoff tensor, no CFD\n", request.name);
+            print_result("{}: uses no tables: only mesh and Kirchhoff tensor, no CFD\n", request.name);
         return json;
     }
     const ScenePlan& plan = *preparation.scene_plan;
@@ -82,12 +82,13 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     if (quiet) return json;
     const GridCost all = whole_grid(plan, false);
     const GridCost wedge = whole_grid(plan, true);
-    print_result("{}: with estimated loads it is {} ({:.0f} % of the falls)\n", request.name,
+    print_result("{}: with estimated loads the body is {} ({:.0f} % of the falls)\n", request.name,
                  name_of(regimes.commonest()), 100.0 * regimes.share(regimes.commonest()));
     print_places(places);
     print_result(
         "first round: {} directions at Reynolds number {:.6g}, {} cases, about {:.0f} CPU s; further rounds "
-        "until\nthe motion is certain to {:.3g} % in descent speed\n",
+        "until\n"
+        "the descent speed is certain to {:.3g} %\n",
         plan.chosen.size(), fmt::join(plan.cases.reynolds_numbers(), ", "), plan.cases.cases.size(),
         plan.cases.cpu_seconds, 100.0 * options.tolerance);
     print_result("all directions of that spacing: {} ({:.0f} CPU s), {} after symmetry ({:.0f} CPU s)\n\n",
@@ -111,17 +112,19 @@ ModelAdvice advised(const Scene& scene, const std::vector<LoadedBody>& loaded, d
 
 nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     if (std::filesystem::path(options.scene).extension() != ".toml") {
-        throw Error(fmt::format(
-            "{0}: a plan is of a scene (.toml), since what a fall needs depends on it; 'samara bake {0} "
-            "-o NAME.body.h5 --dry-run' says what baking a shape in all directions takes",
-            options.scene));
+        throw Error(
+            fmt::format("{0}: a plan needs a scene (.toml); 'samara bake {0} -o NAME.body.h5 --dry-run' "
+                        "reports the cost of baking a shape in all directions",
+                        options.scene));
     }
     const Scene scene = read_scene_file(options.scene);
     if (!options.picture.empty()) {
         require_picture_format(options.picture);
         if (scene.bodies.size() != 1) {
             throw Error(
-                fmt::format("{}: has {} bodies, a picture is of one", options.scene, scene.bodies.size()));
+                fmt::format("{}: has {} bodies, but a picture shows one; leave the picture out, or give a "
+                            "scene with one body",
+                            options.scene, scene.bodies.size()));
         }
     }
     const std::filesystem::path folder = options.bodies.empty() ? "." : options.bodies;
@@ -155,25 +158,24 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace samara;
     PlanOptions options;
-    Arguments arguments(
-        "samara plan",
-        "Shows what a scene needs: the directions and Reynolds numbers that its bodies visit, "
-        "and the cases that a bake starts with");
+    Arguments arguments("samara plan",
+                        "Shows what a scene needs: the directions and Reynolds numbers that its bodies "
+                        "reach, and the first cases of a bake");
     arguments.positional("SCENE", options.scene, "scene file (.toml)");
+    arguments.option("--bodies", options.bodies,
+                     "folder of an earlier bake: its tensors are reused, and its tables determine which "
+                     "physics the scene needs");
     arguments.option(
-        "--bodies", options.bodies,
-        "folder of an earlier bake: its tensors are used again, and its tables tell which physics "
-        "the scene needs");
-    arguments.option("--picture", options.picture,
-                     "draws the visited directions and the cases (.png or .svg; of a scene with one body)");
-    arguments.choice("--quality", options.quality, bake_quality_names(), "of the bake that is planned");
+        "--picture", options.picture,
+        "picture of the visited directions and the cases (.png or .svg; for a scene with one body)");
+    arguments.choice("--quality", options.quality, bake_quality_names(), "quality of the planned bake");
     arguments.option(
         "--tolerance", options.tolerance,
-        "relative, of the descent speed: of the bake that is planned, and of what may be left out", 1e-4,
+        "tolerance of the descent speed, relative: for the planned bake, and for what may be left out", 1e-4,
         10.0);
     arguments.footer(
-        "Simulates the scene 16 times with its Kirchhoff tensor and estimated loads. The bake continues from "
-        "there: it\n"
-        "simulates again with the tables of each round of cases ('samara bake SCENE').\n");
+        "Simulates the scene 16 times with its Kirchhoff tensor and estimated loads. The bake ('samara bake "
+        "SCENE')\n"
+        "simulates again with the tables of each round of cases.\n");
     return run_program(argc, argv, arguments, [&] { return run(options, arguments); });
 }

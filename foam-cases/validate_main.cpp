@@ -55,7 +55,7 @@ void print_plan(const BakePlan& plan) {
                  plan.falls.size() == 1 ? "" : fmt::format("{} falls, each: ", plan.falls.size()),
                  fmt::format("{:.0f}", cells_of(plan, fall.mesh)), fall.duration / fall.time_step,
                  1e3 * fall.time_step * fall.time_unit(), fall.reynolds_number, name_of(fall.closure),
-                 plan.cpu_seconds, plan.falls.size() == 1 ? "" : " in all");
+                 plan.cpu_seconds, plan.falls.size() == 1 ? "" : " in total");
 }
 
 /// Returns the one or two motion files of an option. Throws Error where one cannot be read, before the long
@@ -64,30 +64,29 @@ std::vector<std::filesystem::path> motions_of(const char* option, const std::str
     std::vector<std::filesystem::path> files;
     std::stringstream stream(words);
     for (std::string file; std::getline(stream, file, ',');) files.emplace_back(file);
-    if (files.size() > 2) throw Error(fmt::format("{} takes one motion file, or two: A.h5,B.h5", option));
+    if (files.size() > 2) throw Error(fmt::format("{} needs one motion file, or two: A.h5,B.h5", option));
     for (const std::filesystem::path& file : files) (void)MotionReader(file);
     return files;
 }
 
 void print_warnings(const ValidationResult& result) {
-    const auto note = [](const std::string& text) { print_note("samara validate: note: {}\n", text); };
+    const auto note = [](const std::string& text) { print_note("samara validate: warning: {}\n", text); };
     const FallBalance balance = result.worst_balance();
     if (is_unbalanced(balance)) {
-        note(fmt::format(
-            "the momenta do not balance the loads (force {:.0f} %, moment {:.0f} %): the fall is uncertain; "
-            "halve its step with --step",
-            100.0 * balance.force, 100.0 * balance.moment));
+        note(
+            fmt::format("the fall does not conserve momentum (force off by {:.0f} %, moment by {:.0f} %) and "
+                        "is uncertain; halve its step with --step",
+                        100.0 * balance.force, 100.0 * balance.moment));
     }
     if (result.largest_courant_number() > largest_good_courant_number) {
         note(fmt::format(
-            "the fluid passes up to {:.1f} cells in a step: the fall may be smeared; halve its step with "
-            "--step",
+            "the Courant number reaches {:.1f}, and the fall may be inaccurate; halve its step with --step",
             result.largest_courant_number()));
     }
     for (std::size_t copy = 0; copy < result.solutions.size(); ++copy) {
         const std::vector<std::string>& attempts = result.solutions[copy].attempts;
         if (attempts.size() < 2) continue;
-        note(fmt::format("the fall{} diverged as planned and was solved with {}",
+        note(fmt::format("the fall{} diverged at the planned settings and was solved with {}",
                          result.solutions.size() == 1 ? "" : fmt::format(" of copy {}", copy),
                          attempts.back()));
     }
@@ -108,12 +107,12 @@ void make_folder_of(const std::filesystem::path& file) {
 nlohmann::json judge_again(const ValidateOptions& options, bool quiet) {
     const OtherSolutions beside = solutions_beside(options);
     if (options.dry_run)
-        throw Error(fmt::format("{}: is a motion, solved already; nothing is planned", options.scene));
-    if (beside.empty()) {
         throw Error(
-            fmt::format("{}: is a motion, solved already; give a motion to compare it with, by --other-mesh "
-                        "or --other-closure",
-                        options.scene));
+            fmt::format("{}: is a solved motion; leave --dry-run out, or give a scene", options.scene));
+    if (beside.empty()) {
+        throw Error(fmt::format(
+            "{}: is a solved motion; give a motion to compare it with, by --other-mesh or --other-closure",
+            options.scene));
     }
     const Motion motion = with_uncertainties(options.scene, beside);
     make_folder_of(options.output);
@@ -167,8 +166,8 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
     json["body"] = as_json(measures);
     if (!quiet) {
         print_result(
-            "{}\n{}  momenta balance to {:.1f} % (force) and {:.1f} % (moment), largest Courant number "
-            "{:.2g}\n"
+            "{}\n"
+            "{}  momentum balance: force {:.1f} %, moment {:.1f} %; largest Courant number {:.2g}\n"
             "{:.0f} CPU s{} -> {}\n",
             result.motion.bodies.front().name, as_text(measures), 100.0 * balance.force,
             100.0 * balance.moment, result.largest_courant_number(), result.cpu_seconds,
@@ -179,42 +178,43 @@ nlohmann::json run_validation(const ValidateOptions& options, bool quiet) {
 
 int run(int argc, const char* const* argv) {
     ValidateOptions options;
-    Arguments arguments("samara validate", "Solves a scene by full CFD: the yardstick for samara simulate");
-    arguments.positional(
-        "SCENE", options.scene,
-        "scene file (.toml) of one body, each of whose copies is a fall; or a motion file that is "
-        "solved already, to compare it with others");
+    Arguments arguments("samara validate", "Solves a scene by full CFD, as a reference for samara simulate");
+    arguments.positional("SCENE", options.scene,
+                         "scene file (.toml) with one body, whose copies are solved as separate falls; or a "
+                         "solved motion file, to compare it with others");
     arguments.required_option("-o,--output", options.output, "motion file to write (.h5)");
-    arguments.option("--cells", options.cells,
-                     "of the mesh, about; with kEpsilon that of 6,000, 20,000, 60,000 or 200,000 that is "
-                     "nearest",
-                     1e3, 1e7);
+    arguments.option(
+        "--cells", options.cells,
+        "approximate number of mesh cells; kEpsilon uses the nearest of 6,000, 20,000, 60,000 and 200,000",
+        1e3, 1e7);
     arguments.option("--closure", options.closure,
-                     "above Reynolds number 300: kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES (eddies resolved), "
-                     "laminar (none) or kEpsilon");
-    arguments.option("--step", options.step, "relative to the automatic step of the fall", 0.05, 4.0);
+                     "turbulence closure above Reynolds number 300: kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES "
+                     "(resolves eddies), laminar (none) or kEpsilon");
+    arguments.option("--step", options.step, "time step relative to the automatic step", 0.05, 4.0);
     arguments.option("--fields", options.fields,
-                     "keeps the flow so many times a second, for a movie: velocity and pressure in "
-                     "NAME.cases/fall_00/postProcessing/fields, which ParaView opens; 0: not",
+                     "stores the flow field this many times per second, for a movie: velocity and pressure "
+                     "in NAME.cases/fall_00/postProcessing/fields, for ParaView; 0: never",
                      0.0, 1e4);
-    arguments.option("--jobs", options.jobs, "falls solved at once, where the body has copies", 1, 4096);
+    arguments.option("--jobs", options.jobs, "falls solved in parallel, if the body has copies", 1, 4096);
     arguments.option("--other-mesh", options.other_mesh,
-                     "motion file of the same scene on another mesh: what it differs by is written as the "
-                     "motion's uncertainty by its mesh, which samara compare reads");
+                     "motion file of the same scene on another mesh: the difference is stored as the "
+                     "motion's mesh uncertainty, which samara compare uses");
     arguments.option("--other-closure", options.other_closure,
-                     "like --other-mesh, for another closure; or A.h5,B.h5: two that differ only in the "
-                     "closure, on another mesh");
+                     "like --other-mesh, for another closure; or A.h5,B.h5: two motions on another mesh that "
+                     "differ only in the closure");
     arguments.option("--cluster", options.cluster,
-                     "a command of Slurm that submits a job: solves the fall as a job there");
-    arguments.flag("--dry-run", options.dry_run, "only say what would be solved and how long it would take");
+                     "Slurm command that submits a job, such as \"sbatch --partition=short\": solves each "
+                     "fall as a cluster job");
+    arguments.flag("--dry-run", options.dry_run,
+                   "report what would be solved and how long it would take, and stop");
     arguments.footer(
-        "The fall, or one for each copy of the body, is solved by OpenFOAM (pimpleFoam, six degrees of "
-        "freedom)\nin the folder NAME.cases\n"
-        "beside the output: a plain case for OpenFOAM and ParaView. An interrupted fall continues when the "
-        "command "
-        "is\n"
-        "run again. The scene's loads and turbulence are not used, for they are what is solved.\n"
-        "Compare with the runtime's motion: samara compare motion.h5 reference.h5\n"
+        "OpenFOAM (pimpleFoam, six degrees of freedom) solves one fall for each copy of the body, in the "
+        "folder\n"
+        "NAME.cases beside the output: a plain case for OpenFOAM and ParaView. Run the command again to "
+        "continue an\n"
+        "interrupted fall. The scene's keys for loads and turbulence are ignored, as the flow itself is "
+        "solved.\n"
+        "Compare with a simulated motion: samara compare motion.h5 reference.h5\n"
         "Needs OpenFOAM and Snakemake (Debian: apt install openfoam snakemake).\n");
     return run_program(argc, argv, arguments, [&] {
         if (arguments.given("--cluster")) require_sbatch(options.cluster);

@@ -100,7 +100,7 @@ void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const M
                          const ProgressCall& progress) {
     if (options.flip) {
         throw Error(
-            fmt::format("{}: exact geometry is oriented outwards anyway; leave --flip out", shape.string()));
+            fmt::format("{}: exact geometry is always oriented outwards; leave --flip out", shape.string()));
     }
     MeshedShape meshed =
         mesh_geometry(shape, options, [&](double share) { tell(progress, geometry_meshed * share); });
@@ -137,7 +137,7 @@ Body make_body(const std::filesystem::path& shape, const MeshOptions& options,
     body.source = source_line(shape, options, body.surface.order());
     if (const std::string error = error_of(body); !error.empty()) {
         throw Error(
-            fmt::format("{}: {}; give the metres for one unit of the file: 'samara mesh --scale', or scale "
+            fmt::format("{}: {}; give the size of the file's unit in metres: 'samara mesh --scale', or scale "
                         "beside its shape in a scene",
                         shape.string(), error));
     }

@@ -60,13 +60,13 @@ void print_for_people(const Body& body, const MeshOptions& options, const std::s
                          seconds);
     const auto count = static_cast<double>(body.surface.triangle_count());
     if (options.sizing == MeshOptions::Sizing::triangles && count > 1.15 * options.triangles) {
-        samara::print_result("  note      {} triangles were asked for; the shape's own edges need more\n",
+        samara::print_result("  warning   {} triangles were requested; the shape's edges need more\n",
                              options.triangles);
     }
     samara::print_result("  extent    {:.5g} x {:.5g} x {:.5g} m\n", size.x(), size.y(), size.z());
     samara::print_result("  volume    {:.6g} m^3 (of this surface)\n", moments.volume);
     samara::print_result(
-        "  shape     {:+.2f} % of volume, at most {:.2f} % of the size away (mesh against file)\n",
+        "  deviation {:+.2f} % of volume, at most {:.2f} % of the size (mesh against file)\n",
         100.0 * body.shape_error->volume, 100.0 * body.shape_error->distance);
     samara::print_result("  area      {:.6g} m^2\n", moments.surface_area);
     samara::print_result("  centroid  ({:.5g}, {:.5g}, {:.5g}) m\n", moments.centroid.x(),
@@ -95,30 +95,27 @@ int main(int argc, char** argv) {
     bool keep = false;
     MeshOptions options;
     samara::Arguments arguments("samara mesh",
-                                "Makes a body file of a shape: its checked surface, volume, symmetry.");
+                                "Makes a body file from a shape: checked surface, volume, symmetry.");
     arguments.positional(
         "SHAPE", shape,
         "geometry (.geo .step .stp .brep) or triangles (.stl .obj .ply .off .glb .gltf .3mf .msh "
         ".body.h5)");
     arguments.required_output_option("-o,--output", output, "the body file to write, NAME.body.h5");
-    arguments.option("--triangles", options.triangles, "about this many triangles", 4, 10'000'000);
+    arguments.option("--triangles", options.triangles, "approximate number of triangles", 4, 10'000'000);
     arguments.option("--size", options.size,
-                     "sides of this length (m) where the body is flat; smaller elsewhere", 1e-12, 1e12);
-    arguments.flag("--keep", keep,
-                   "the triangles as the file has them; for geometry the sizes that the file sets");
-    arguments.choice("--order", order, {"automatic", "1", "2"},
-                     "1: flat triangles; 2: curved ones with nodes on the edges; automatic: 2 where the body "
-                     "has curved faces (--keep: as the file has them)");
-    arguments.option("--scale", options.scale,
-                     "metres for one unit of the file (STEP and 3MF state their unit: left at 1)", 1e-12,
+                     "edge length of the triangles (m) where the body is flat; smaller elsewhere", 1e-12,
                      1e12);
-    arguments.option(
-        "--time-limit", options.time_limit,
-        "seconds of computing that gmsh and other libraries may take to read the shape and mesh it", 1.0,
-        1e9);
-    arguments.flag("--flip", options.flip, "reverse every triangle: for a surface that is inside out");
+    arguments.flag("--keep", keep, "keep the triangles of the file; for geometry, the sizes set in the file");
+    arguments.choice("--order", order, {"automatic", "1", "2"},
+                     "1: flat triangles; 2: curved triangles with nodes on the edges; automatic: 2 if the "
+                     "body has curved faces (--keep: as in the file)");
+    arguments.option("--scale", options.scale,
+                     "size of the file's unit, m (STEP and 3MF state their unit: keep 1)", 1e-12, 1e12);
+    arguments.option("--time-limit", options.time_limit,
+                     "limit of the CPU time to read and mesh the shape, s", 1.0, 1e9);
+    arguments.flag("--flip", options.flip, "reverse all triangles, for a surface that is inside out");
     arguments.footer(
-        "The surface must be closed. Triangles are smaller where the body curves and near its edges.\n"
+        "The surface must be closed. Triangles are smaller on curved parts and near edges.\n"
         "Example: samara mesh meshes/shapes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280");
     return samara::run_program(argc, argv, arguments, [&] {
         const auto start = std::chrono::steady_clock::now();
@@ -126,7 +123,7 @@ int main(int argc, char** argv) {
         options.as_many_as_needed = !arguments.given("--triangles") && !arguments.given("--size");
         options.order = order == "automatic" ? samara::automatic_order : std::stoi(order);
         if (!samara::is_body_file_name(output)) {
-            throw samara::Error(fmt::format("{}: the name of a body file ends in .body.h5", output));
+            throw samara::Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", output));
         }
         const Body body = [&] {
             samara::Progress progress("meshing " + shape, "percent");

@@ -209,7 +209,7 @@ void require_times_of(const QuantityHistory& other, const QuantityHistory& histo
         // the call with the two exchanged reports.
         if (i < history.times.size() && history.times[i] < time) return;
         throw Error(fmt::format(
-            "{}: has no {} at the time {:.10g}, which {} has: it was emptied, cut short, or its run's "
+            "{}: has no {} at the time {:.10g}, but {} has one: it was emptied or truncated, or its run's "
             "file is missing; {}",
             history.files.at(time).string(), history.name, time, other.files.at(time).string(), remedy));
     }
@@ -245,9 +245,10 @@ void require_plausible(const QuantityHistory& history, double start, const std::
     const std::size_t first = first_index(history, start);
     const auto reject = [&](std::size_t i, const std::string& why) {
         const double size = history.is_scalar ? history.values[i].x() : history.values[i].norm();
-        throw Error(fmt::format(
-            "{}: the {} {} {:.4g} at the time {:.10g}, {}; {}", history.files.at(history.times[i]).string(),
-            history.name, history.is_scalar ? "is" : "has the size", size, history.times[i], why, remedy));
+        throw Error(fmt::format("{}: the {} {} {:.4g} at the time {:.10g}, {}; {}",
+                                history.files.at(history.times[i]).string(), history.name,
+                                history.is_scalar ? "is" : "has the magnitude", size, history.times[i], why,
+                                remedy));
     };
     Vector3d middle;
     for (int axis = 0; axis < 3; ++axis) {
@@ -265,12 +266,13 @@ void require_plausible(const QuantityHistory& history, double start, const std::
         most_over_median * std::max(middle.norm(), history.noise) + most_over_scatter * scatter;
     for (std::size_t i = first; i < history.values.size(); ++i) {
         if (history.values[i].norm() > history.largest) {
-            reject(i, fmt::format("beyond any flow's ({:.4g}): diverged or damaged", history.largest));
+            reject(i, fmt::format("above the largest plausible value ({:.4g}): diverged or damaged",
+                                  history.largest));
         }
         if (history.is_scalar && history.values[i].x() < 0.0)
-            reject(i, "which is never negative: diverged or damaged");
+            reject(i, "but cannot be negative: diverged or damaged");
         if (distances[i - first] > most) {
-            reject(i, fmt::format("far from the others (about {:.4g}): damaged, or not settled",
+            reject(i, fmt::format("far from the others (about {:.4g}): damaged, or not converged",
                                   history.is_scalar ? middle.x() : middle.norm()));
         }
     }

@@ -54,8 +54,8 @@ bool is_solved_with_turbulence(const std::filesystem::path& folder, const CasePl
 Error not_solved(const std::filesystem::path& folder, const CasePlan& plan,
                  const std::vector<std::string>& names) {
     return Error(
-        fmt::format("{}: the case {} is not solved ({} of {} are not); run 'samara bake' again, which goes "
-                    "on where it stopped",
+        fmt::format("{}: the case {} is not solved ({} of {} are not); run 'samara bake' again, which "
+                    "continues where it stopped",
                     folder.string(), names.front(), names.size(), plan.cases.size()));
 }
 
@@ -137,7 +137,7 @@ double main_reynolds_number(const CasePlan& plan) {
     for (const PlannedCase& planned : plan.cases) {
         if (planned.purpose == CasePurpose::table) ++counts[planned.reynolds_number];
     }
-    if (counts.empty()) throw Error("plans no case for the table");
+    if (counts.empty()) throw Error("plans no case for the tables");
     for (const PlannedCase& planned : plan.cases) {
         const auto found = counts.find(planned.reynolds_number);
         if (planned.purpose == CasePurpose::mesh && found != counts.end()) ++found->second;

@@ -90,9 +90,9 @@ WallSpacing spacing_of(std::vector<SpacedArea> parts, bool wall_functions) {
 fs::path last_fields(const fs::path& folder) {
     fs::path fields = folder / fmt::format("{:.10g}", last_written_time(folder));
     if (!fs::exists(fields / "U")) {
-        throw Error(
-            fmt::format("{}: has no whole fields of its last time; run 'reconstructPar -latestTime' there",
-                        folder.string()));
+        throw Error(fmt::format(
+            "{}: has no reconstructed fields at its last time; run 'reconstructPar -latestTime' there",
+            folder.string()));
     }
     return fields;
 }
@@ -107,11 +107,12 @@ WallSpacing wall_spacing(const fs::path& case_folder, const PolyMesh& mesh) {
     const fs::path fields = last_fields(case_folder);
     const std::vector<WallFace> faces = wall_faces(mesh);
     if (faces.empty()) {
-        throw Error(fmt::format("{}: its mesh has no patch of the body", case_folder.string()));
+        throw Error(fmt::format("{}: its mesh has no patch for the body; solve the case again",
+                                case_folder.string()));
     }
     const auto require_covered = [&](bool covers) {
         if (covers) return;
-        throw Error(fmt::format("{}: fields and mesh do not belong together", fields.string()));
+        throw Error(fmt::format("{}: fields and mesh do not match; solve the case again", fields.string()));
     };
     std::vector<SpacedArea> parts;
     if (wall_functions) {

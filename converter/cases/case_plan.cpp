@@ -47,9 +47,9 @@ Closure closure_of(std::string_view name) {
 namespace {
 
 Error error(const std::filesystem::path& file, const std::string& what) {
-    return Error(fmt::format(
-        "{}: {}; make the cases again with 'samara bake', or, where the plan is yours, correct it",
-        file.string(), what));
+    return Error(
+        fmt::format("{}: {}; make the cases again with 'samara bake', or correct the plan if you wrote it",
+                    file.string(), what));
 }
 
 nlohmann::json read_json(const std::filesystem::path& file) {
@@ -89,7 +89,8 @@ void require_inside(const std::string& name, const char* what) {
     const std::filesystem::path path(name);
     const bool goes_up = std::ranges::find(path, "..") != path.end();
     if (!name.empty() && path.is_relative() && !goes_up) return;
-    throw Error(fmt::format("the {} '{}' is no name of a folder beside plan.json", what, printable(name)));
+    throw Error(
+        fmt::format("the {} '{}' is not the name of a folder beside plan.json", what, printable(name)));
 }
 
 PlannedCase as_case(const nlohmann::json& values, const CasePlan& plan, const CaseScales& scales) {
@@ -154,7 +155,7 @@ void check_case(const PlannedCase& planned) {
         return Error(fmt::format("the {} of case {} is not positive", what, planned.name));
     };
     if (!(std::abs(planned.direction.norm() - 1.0) < 1e-6)) {
-        throw Error(fmt::format("the direction of case {} is no unit vector", planned.name));
+        throw Error(fmt::format("the direction of case {} is not a unit vector", planned.name));
     }
     if (!(planned.reynolds_number > 0.0)) throw reject("Reynolds number");
     if (!(planned.scales.length > 0.0)) throw reject("length");
@@ -181,7 +182,7 @@ void check_cases(const std::vector<PlannedCase>& cases) {
         for (std::size_t j = 0; j < i; ++j) {
             if (!are_same(cases[i], cases[j])) continue;
             throw Error(
-                fmt::format("the cases {} and {} are of the same direction, Reynolds number and purpose",
+                fmt::format("the cases {} and {} have the same direction, Reynolds number and purpose",
                             cases[j].name, cases[i].name));
         }
     }
@@ -194,8 +195,8 @@ void check_turbulence(const std::vector<PlannedCase>& cases) {
         if (found == cases.end() || found->purpose != CasePurpose::turbulence ||
             !are_of_one_flow(*found, planned)) {
             throw Error(
-                fmt::format("the case {} takes its turbulence from {}, which is no case of purpose "
-                            "turbulence of the same direction and Reynolds number",
+                fmt::format("the case {} takes its turbulence from {}, which is not a case with purpose "
+                            "turbulence and the same direction and Reynolds number",
                             planned.name, planned.turbulence_from));
         }
     }
@@ -215,8 +216,8 @@ void check(const CasePlan& plan) {
     const auto is_rotation = [](const Matrix3d& axes) {
         return (axes.transpose() * axes - Matrix3d::Identity()).norm() < 1e-6 && axes.determinant() > 0.0;
     };
-    if (!is_rotation(plan.axes)) throw Error("'axes' is no rotation");
-    if (!is_rotation(plan.case_axes)) throw Error("'case_axes' is no rotation");
+    if (!is_rotation(plan.axes)) throw Error("'axes' is not a rotation");
+    if (!is_rotation(plan.case_axes)) throw Error("'case_axes' is not a rotation");
     if (plan.subdivisions < 1 || plan.subdivisions > 1024)
         throw Error("'subdivisions' is not from 1 to 1024");
     if (!(plan.reference_length > 0.0)) throw Error("'reference_length' is not positive");
@@ -244,12 +245,12 @@ std::string name_of(CasePurpose purpose) {
 CasePlan read_case_plan(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "plan.json";
     if (!std::filesystem::is_directory(folder)) {
-        throw Error(fmt::format("{}: is no folder; give the folder NAME.cases that 'samara bake' made",
+        throw Error(fmt::format("{}: is not a folder; give the folder NAME.cases that 'samara bake' made",
                                 folder.string()));
     }
     if (!std::filesystem::exists(file)) {
         throw Error(
-            fmt::format("{}: is no folder of cases (it has no plan.json); give the folder NAME.cases that "
+            fmt::format("{}: is not a folder of cases (it has no plan.json); give the folder NAME.cases that "
                         "'samara bake' made",
                         folder.string()));
     }
@@ -290,8 +291,7 @@ void require_links_within(const fs::path& folder) {
             const fs::path inside = end_of(entry->path()).lexically_relative(root);
             if (!inside.empty() && *inside.begin() != "..") continue;
             throw Error(fmt::format(
-                "{}: is a link that leads out of {}, and is not followed; put there what it leads to, "
-                "or remove it",
+                "{}: is a link to outside of {}, which is not followed; replace it by a copy, or remove it",
                 entry->path().string(), folder.string()));
         }
         if (type != fs::file_type::regular && type != fs::file_type::directory) {

@@ -44,7 +44,7 @@ struct CaseSource {
 
     [[nodiscard]] fs::path folder() const { return cases / planned.name; }
     [[nodiscard]] std::string remedy() const {
-        if (plan.solved_by_user) return "solve it again, or take it out of plan.json";
+        if (plan.solved_by_user) return "solve it again, or remove it from plan.json";
         return fmt::format("remove the folder {} and run 'samara bake' again", planned.name);
     }
     [[nodiscard]] Error error(const std::string& what) const {
@@ -76,8 +76,10 @@ Tail tail_of(const CaseSource& source, const QuantityHistory& history, double st
     }
     constexpr std::size_t fewest = 4;
     if (window.front().size() < fewest) {
-        throw Error(fmt::format("{}: has {} iterations from {:.10g} on, too few for a mean with an error",
-                                history.files.at(start).string(), window.front().size(), start));
+        throw Error(
+            fmt::format("{}: has {} iterations from {:.10g} on, too few for a mean with an error; solve the "
+                        "case with more iterations",
+                        history.files.at(start).string(), window.front().size(), start));
     }
     return {{mean(window[0]), mean(window[1]), mean(window[2])},
             {tail_error(window[0]), tail_error(window[1]), tail_error(window[2])}};
@@ -86,10 +88,10 @@ Tail tail_of(const CaseSource& source, const QuantityHistory& history, double st
 void require_agreement(const CaseSource& source, const std::string& field, double in_fields,
                        double in_history, double time) {
     if (!(std::abs(in_fields - in_history) <= largest_disagreement * std::abs(in_history))) {
-        throw source.error(fmt::format(
-            "the mean {} over the shell at the time {:.10g} is {:.6g} by the fields and {:.6g} by "
-            "postProcessing/shell: they are of different runs",
-            field, time, in_fields, in_history));
+        throw source.error(
+            fmt::format("the mean {} over the shell at the time {:.10g} is {:.6g} in the fields and {:.6g} "
+                        "in postProcessing/shell: they are from different runs",
+                        field, time, in_fields, in_history));
     }
 }
 
@@ -98,10 +100,8 @@ std::size_t place_of(const CaseSource& source, const QuantityHistory& history, d
     for (std::size_t i = 0; i < history.times.size(); ++i) {
         if (std::abs(history.times[i] - time) <= 1e-6 * time) return i;
     }
-    throw source.error(
-        fmt::format("the fields were last written at the time {:.10g}, which postProcessing/shell does not "
-                    "hold",
-                    time));
+    throw source.error(fmt::format(
+        "the fields were last written at the time {:.10g}, which is missing in postProcessing/shell", time));
 }
 
 fs::path mesh_folder(const CaseSource& source) {
@@ -201,10 +201,10 @@ std::vector<Tail> tails_of(const CaseSource& source, std::vector<QuantityHistory
 void require_noted(const CaseSource& source, const std::string& name, const Vector3d& mean,
                    const Vector3d& noted, double noise) {
     if ((mean - noted).norm() <= largest_drift * (noted.norm() + noise)) return;
-    throw source.error(fmt::format(
-        "the mean {} over the averaging window has changed by {:.3g} % since the case was solved: its "
-        "history in postProcessing is damaged",
-        name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
+    throw source.error(
+        fmt::format("the mean {} over the averaging window has changed by {:.3g} % since the case was "
+                    "solved: the history in postProcessing is damaged",
+                    name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
 }
 
 /// Throws where the means differ from those that provenance.json holds since the case was solved, if it does.
@@ -269,13 +269,12 @@ void require_flow(const CaseSource& source, const Vector3d& flow) {
     const Vector3d moves = -flow.normalized();
     if ((moves - planned).norm() <= largest_difference) return;
     const bool is_opposite = (moves + planned).norm() <= largest_difference;
-    throw Error(fmt::format(
-        "{}: {} {}, and so the body along {}, but plan.json has the 'direction' {}, which is that of the "
-        "body's "
-        "velocity; correct it, or solve the case for it",
-        source.folder().string(),
-        is_opposite ? "the flow has the opposite direction: along" : "the flow has the direction",
-        in_words(flow.normalized()), in_words(moves), in_words(planned)));
+    throw Error(
+        fmt::format("{}: {} {}, so the body moves along {}, but plan.json has the 'direction' {} of the "
+                    "body's velocity; correct it, or solve the case for it",
+                    source.folder().string(),
+                    is_opposite ? "the flow has the opposite direction: along" : "the flow has the direction",
+                    in_words(flow.normalized()), in_words(moves), in_words(planned)));
 }
 
 /// Throws where the plan differs from the flow that the case's own files set up, as far as these can be read.
@@ -310,8 +309,8 @@ void require_sane(const CaseSource& source, const DirectionSample& sample, bool 
     if (!(drag > 0.0)) {
         throw reject(fmt::format("the drag coefficient is {:.4g}, not positive{}", drag,
                                  source.plan.solved_by_user
-                                     ? ", or 'direction' in plan.json, that of the body's "
-                                       "velocity, is the flow's"
+                                     ? ", or 'direction' in plan.json is the direction of the flow, not that "
+                                       "of the body's velocity"
                                      : ""));
     }
     if (!has_turbulence) return;
@@ -325,7 +324,7 @@ nlohmann::json read_provenance(const CaseSource& source) {
     nlohmann::json provenance = parse_json_or_discard(read_bytes(file));
     if (!provenance.is_object()) {
         throw Error(
-            fmt::format("{}: is no JSON object; remove it and run 'samara bake' again", file.string()));
+            fmt::format("{}: is not a JSON object; remove it and run 'samara bake' again", file.string()));
     }
     return provenance;
 }
@@ -336,7 +335,7 @@ double averaging_start(const CaseSource& source, const nlohmann::json& provenanc
     if (source.planned.averaging_start) return *source.planned.averaging_start;
     if (provenance.contains("averaging_start")) {
         if (provenance["averaging_start"].is_number()) return provenance["averaging_start"].get<double>();
-        throw source.error("'averaging_start' in provenance.json is no number");
+        throw source.error("'averaging_start' in provenance.json is not a number");
     }
     return times[times.size() - (times.size() + 3) / 4];
 }

@@ -110,13 +110,13 @@ LoadFluctuations reduce_fluctuations(const std::filesystem::path& case_folder,
                                      const std::optional<double>& begin) {
     const FoamDictionary parameters(case_folder / "parameters");
     if (is_steady(parameters)) {
-        throw Error(fmt::format("{}: the case is steady; fluctuations are of one that was solved in time",
+        throw Error(fmt::format("{}: the case is steady; fluctuations need an unsteady case",
                                 (case_folder / "parameters").string()));
     }
     const LoadHistory history = read_load_history(case_folder / forces);
     const std::vector<double>& times = history.force.times;
     if (times != history.moment.times) {
-        throw Error(fmt::format("{}: force and moment are of other times; solve the case again",
+        throw Error(fmt::format("{}: force and moment have different times; solve the case again",
                                 (case_folder / forces).string()));
     }
     LoadFluctuations result;
@@ -128,8 +128,9 @@ LoadFluctuations reduce_fluctuations(const std::filesystem::path& case_folder,
     const auto first = std::ranges::lower_bound(times, result.begin);
     const auto steps = static_cast<std::size_t>(times.end() - first);
     if (steps < fewest_values) {
-        throw Error(fmt::format("{}: has {} steps from the time {:.4g} on, of {} that its fluctuations need",
-                                case_folder.string(), steps, result.begin, fewest_values));
+        throw Error(fmt::format(
+            "{}: has {} steps from the time {:.4g} on, but fluctuations need {}; solve the case for longer",
+            case_folder.string(), steps, result.begin, fewest_values));
     }
     result.begin = *first;
     const double step = (result.end - result.begin) / static_cast<double>(steps - 1);

@@ -64,7 +64,7 @@ double number(const std::string& word) {
 
 SolvedCase row_of(const std::vector<std::string>& words) {
     if (words.size() != column_count) {
-        throw Error(fmt::format("has {} columns in place of {}", words.size(), column_count));
+        throw Error(fmt::format("has {} columns instead of {}", words.size(), column_count));
     }
     std::size_t column = 4;
     const auto next = [&] { return number(words[column++]); };
@@ -103,8 +103,9 @@ std::vector<SolvedCase> read_samples_csv(const std::filesystem::path& file) {
         ++line_number;
         if (line_number == 1) {
             if (line + '\n' == heading) continue;
-            throw Error(fmt::format(
-                "{}:1: is no table of cases as 'samara convert CASES -o NAME.csv' writes it", file.string()));
+            throw Error(
+                fmt::format("{}:1: is not a table of cases; make one with 'samara convert CASES -o NAME.csv'",
+                            file.string()));
         }
         try {
             cases.push_back(row_of(split(line)));
@@ -112,7 +113,9 @@ std::vector<SolvedCase> read_samples_csv(const std::filesystem::path& file) {
             throw Error(fmt::format("{}:{}: {}", file.string(), line_number, error.what()));
         }
     }
-    if (cases.empty()) throw Error(fmt::format("{}: holds no case", file.string()));
+    if (cases.empty())
+        throw Error(fmt::format("{}: holds no case; make it again with 'samara convert CASES -o NAME.csv'",
+                                file.string()));
     return cases;
 }
 

@@ -54,7 +54,7 @@ std::vector<fs::path> processor_folders(const fs::path& folder) {
         processors.push_back(folder / fmt::format("processor{}", i));
         if (!fs::is_directory(processors.back())) {
             throw Error(
-                fmt::format("{}: is missing, but the case is cut into {} parts; copy all of them, or "
+                fmt::format("{}: is missing, but the case is decomposed into {} parts; copy all of them, or "
                             "run 'reconstructPar -latestTime' where they are",
                             processors.back().string(), count));
         }
@@ -101,7 +101,7 @@ WrittenTime last_written(const fs::path& folder, const fs::path& mesh) {
         const std::vector<TimeFolder> times = time_folders(processor);
         if (times.empty() || times.back().time != cut || cut == 0.0) {
             throw Error(
-                fmt::format("{}: did not write the time {:.10g} as processor0 did; let the solver go on",
+                fmt::format("{}: lacks the time {:.10g}, which processor0 has; let the solver continue",
                             processor.string(), cut));
         }
         written.time = cut;
@@ -126,8 +126,8 @@ std::vector<double> values_at(const FoamField<double>& field, const std::vector<
         const auto index = static_cast<std::size_t>(cell);
         if (cell < 0 || !field.covers(index)) {
             throw Error(
-                fmt::format("{}: has no value for cell {} of the shell; mesh and field do not belong "
-                            "together",
+                fmt::format("{}: has no value for cell {} of the shell; mesh and field do not match; solve "
+                            "the case again",
                             file.string(), cell));
         }
         values.push_back(field[index]);
@@ -139,7 +139,7 @@ std::vector<double> values_at(const FoamField<double>& field, const std::vector<
 void require_positive(double value, std::int64_t cell, const fs::path& file) {
     if (value >= 0.0 && std::isfinite(value)) return;
     throw Error(
-        fmt::format("{}: is {} in cell {}, where it cannot be: diverged or damaged; solve the case again",
+        fmt::format("{}: is {} in cell {}, which is impossible: diverged or damaged; solve the case again",
                     file.string(), value, cell));
 }
 

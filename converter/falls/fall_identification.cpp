@@ -69,7 +69,8 @@ struct Segment {
 
 Error too_short(const FallRecord& record) {
     return Error(
-        fmt::format("{}: the fall is too short to identify coefficients from: {:.3g} L/U, needs {:.3g}",
+        fmt::format("{}: the fall is too short to identify coefficients: it lasts {:.3g} L/U and must last "
+                    "{:.3g}; solve a longer one",
                     record.fall.name, record.samples.empty() ? 0.0 : record.samples.back().time,
                     first_segment + horizon + (least_segments - 1) * spacing));
 }
@@ -80,7 +81,8 @@ void require_even_steps(const FallRecord& record) {
         const double time = record.samples[i].time;
         if (std::abs(time - static_cast<double>(i + 1) * step) <= uneven_time * step) continue;
         throw Error(
-            fmt::format("{}: the fall's steps are not of one length: {:.6g} L/U at first, but not at {:.6g}",
+            fmt::format("{}: the fall's steps are not equal: {:.6g} L/U at first, but different at {:.6g}; "
+                        "solve the fall again",
                         record.fall.name, step, time));
     }
 }
@@ -423,7 +425,8 @@ FallMotions fall_motions(const Body& body, const FallRecord& record) {
 Identification identify_motion(const Body& body, const std::vector<FallRecord>& records,
                                const LeftOutOfFalls& left_out, const std::function<void(double)>& progress) {
     if (records.empty())
-        throw Error(fmt::format("{}: there is no fall to identify coefficients from", body.name));
+        throw Error(fmt::format(
+            "{}: has no falls to identify coefficients from; give folders of solved falls", body.name));
     if (progress) progress(0.0);
     std::vector<ReadyFall> falls;
     falls.reserve(records.size());

@@ -54,22 +54,21 @@ void require_whole(const std::filesystem::path& folder, const FreeFall& fall, co
         const double time = state.rows[i].front();
         if (std::abs(time - loads.force.times[i]) > same || std::abs(time - loads.moment.times[i]) > same) {
             throw damaged(
-                folder, fmt::format("its states, forces and moments at the time {:.10g} are not of the same "
-                                    "times",
-                                    time));
+                folder, fmt::format("its states, forces and moments have different times at {:.10g}", time));
         }
         const double before = i == 0 ? 0.0 : state.rows[i - 1].front();
         longest_step = std::max(longest_step, time - before);
         if (time - before > fall.time_step * (1.0 + 1e-3) + same) {
-            throw damaged(folder,
-                          fmt::format("it has nothing between the times {:.10g} and {:.10g}", before, time));
+            throw damaged(
+                folder, fmt::format("it has no values between the times {:.10g} and {:.10g}", before, time));
         }
     }
     const double end = shortest == 0 ? 0.0 : state.rows[shortest - 1].front();
     const std::size_t longest = std::max({rows, loads.force.times.size(), loads.moment.times.size()});
     if (end < fall.duration - 1.5 * longest_step || shortest < longest) {
-        throw damaged(folder, fmt::format("its states, forces or moments end at the time {:.10g} of {:.10g}",
-                                          end, fall.duration));
+        throw damaged(
+            folder, fmt::format("its states, forces or moments end at the time {:.10g}, not at {:.10g}", end,
+                                fall.duration));
     }
 }
 
@@ -109,10 +108,9 @@ FallRecord read_fall_record(const std::filesystem::path& folder) {
         for (const Vector3d& value : {sample.position, angle, sample.velocity, sample.angular_velocity,
                                       sample.force, sample.moment}) {
             if (value.norm() < largest_value) continue;
-            throw damaged(
-                folder, fmt::format("a state, force or moment at the time {:.10g} is {:.3g} in size, beyond "
-                                    "any fall's",
-                                    sample.time, value.norm()));
+            throw damaged(folder, fmt::format("a state, force or moment at the time {:.10g} has the "
+                                              "magnitude {:.3g}, above the largest plausible value",
+                                              sample.time, value.norm()));
         }
     }
     return record;
@@ -170,7 +168,8 @@ ImmersedBody falling_body(const Body& body, const FreeFall& fall) {
     const double length = reference_length(body.moments.surface_area);
     if (std::abs(length - fall.length) > 1e-6 * length) {
         throw Error(
-            fmt::format("{}: the fall is of another body than {}: its length L is {:.6g} m, not {:.6g} m",
+            fmt::format("{}: the fall belongs to another body than {}: its length L is {:.6g} m, not {:.6g} "
+                        "m; give falls of this body",
                         fall.name, body.name, fall.length, length));
     }
     const double mass_unit = fall.fluid_density * length * length * length;

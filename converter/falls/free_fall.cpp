@@ -80,7 +80,7 @@ std::string free_fall_json(const FreeFall& fall) {
 FreeFall read_free_fall(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "fall.json";
     try {
-        if (!std::filesystem::exists(file)) throw Error("is not there");
+        if (!std::filesystem::exists(file)) throw Error("is missing");
         FreeFall fall = as_fall(parse_json(read_bytes(file)));
         check(fall);
         return fall;

@@ -45,14 +45,14 @@ nlohmann::json identification_as_json(const Identification& identification) {
 }
 
 std::string simulated_fall_as_text(const SimulatedFall& fall) {
-    return fmt::format("  {} (momenta balance to {:.1f} % and {:.1f} %)\n", fall.name,
+    return fmt::format("  {} (momentum balance: force {:.1f} %, moment {:.1f} %)\n", fall.name,
                        100.0 * fall.balance.force, 100.0 * fall.balance.moment) +
            metrics("full CFD", fall.solved) + metrics("simulated", fall.simulated);
 }
 
 std::string identification_as_text(const Identification& identification) {
     std::string text = fmt::format(
-        "Dynamic coefficients from {} stretches of free fall, with a prediction error of {:.1f} % of the "
+        "Dynamic coefficients from {} segments of free fall, with a prediction error of {:.1f} % of the "
         "fall's speed:\n",
         identification.segments, 100.0 * identification.prediction_error);
     for (const SimulatedFall& fall : identification.falls) text += simulated_fall_as_text(fall);

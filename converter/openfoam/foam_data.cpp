@@ -62,8 +62,8 @@ class DataScan {
 
     [[nodiscard]] Error error(const std::string& what) const {
         const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size()));
-        return Error(fmt::format("{}:{}: {}, which no solver writes there", path_.string(),
-                                 1 + std::count(text_.begin(), end, '\n'), what));
+        return Error(fmt::format("{}:{}: {}, which is not allowed there; remove it, or solve the case again",
+                                 path_.string(), 1 + std::count(text_.begin(), end, '\n'), what));
     }
 
     /// Passes over blanks and comments; returns whether anything is left.
@@ -159,7 +159,7 @@ class DataScan {
             word();
         }
         const std::string_view value = text_.substr(start, place_ - start);
-        if (skip_blanks() && here() != ';') throw error("holds a header of another form");
+        if (skip_blanks() && here() != ';') throw error("holds a header of an unknown form");
         ++place_;
         return value;
     }
@@ -184,7 +184,7 @@ class DataScan {
             const std::string_view value = header_value();
             if (name == "format ") {
                 is_binary_ = value == "binary";
-                if (!is_binary_ && value != "ascii") throw error("holds a header of another format");
+                if (!is_binary_ && value != "ascii") throw error("holds a header of an unknown format");
             }
             if (name == "class ") {
                 of_class_ = found_in(value, std::begin(values_of_classes), std::end(values_of_classes));

@@ -24,8 +24,8 @@ void read_architecture(const FoamScanner& scanner, std::string_view words, FoamH
     const auto has = [&](std::string_view word) { return words.find(word) != std::string_view::npos; };
     if (has(other_order)) {
         throw scanner.error(
-            "is binary in another machine's byte order; set 'writeFormat ascii' in system/controlDict there "
-            "and run foamFormatConvert");
+            "is binary with another byte order; set 'writeFormat ascii' in system/controlDict there and run "
+            "foamFormatConvert");
     }
     header.label_bytes = has("label=64") ? 8 : 4;
     header.scalar_bytes = has("scalar=32") ? 4 : 8;

@@ -125,7 +125,7 @@ void append_row(FoamHistory& history, std::vector<double> row) {
     if (row.size() != history.columns.size()) {
         throw Error(fmt::format("has {} values for {} columns", row.size(), history.columns.size()));
     }
-    if (!std::isfinite(row.front())) throw Error(fmt::format("{} is no time", row.front()));
+    if (!std::isfinite(row.front())) throw Error(fmt::format("{} is not a time", row.front()));
     if (!history.rows.empty() && !(row.front() > history.rows.back().front())) {
         throw Error(fmt::format("the time {:.10g} comes after {:.10g}; times must ascend", row.front(),
                                 history.rows.back().front()));
@@ -152,9 +152,7 @@ FoamHistory read_rows(const std::filesystem::path& file, CutLine cut_line) {
                 if (history.rows.empty()) name_components(history.columns, line);
                 append_row(history, numbers_in(line));
             } else if (cut_line == CutLine::reject) {
-                throw Error(
-                    "ends within this line, as where the solver was stopped while it wrote; let it go on, or "
-                    "remove the line");
+                throw Error("ends within this line; let the solver continue, or remove the line");
             }
         } catch (const Error& error) {
             throw Error(fmt::format("{}:{}: {}", bytes.path.string(), line_number, error.what()));
@@ -173,9 +171,10 @@ void require_rows(const FoamHistory& history) {
 void require_times_of_run(const FoamHistory& part, double run_start) {
     const double first = part.rows.front().front();
     if (first >= run_start * (1.0 - 1e-6)) return;
-    throw Error(fmt::format(
-        "{}: begins at the time {:.10g}, before the run of its folder; it is of another run: remove it",
-        part.file.string(), first));
+    throw Error(
+        fmt::format("{}: begins at the time {:.10g}, before its folder's start time, so it belongs to "
+                    "another run; remove it",
+                    part.file.string(), first));
 }
 
 }  // namespace
@@ -202,10 +201,9 @@ std::vector<std::filesystem::path> history_files(const std::filesystem::path& fo
 FoamHistory read_joined_history(const std::filesystem::path& folder, const std::string& name) {
     const std::vector<std::filesystem::path> files = history_files(folder, name);
     if (files.empty()) {
-        throw Error(
-            fmt::format("{}: has no {}.dat in any folder of a start time; the case was solved without "
-                        "the function object '{}', or not at all",
-                        folder.string(), name, folder.filename().string()));
+        throw Error(fmt::format(
+            "{}: has no {}.dat in any folder of a start time; solve the case with the function object '{}'",
+            folder.string(), name, folder.filename().string()));
     }
     FoamHistory joined;
     for (const std::filesystem::path& file : files) {
@@ -213,7 +211,8 @@ FoamHistory read_joined_history(const std::filesystem::path& folder, const std::
         joined.file = part.file;
         if (part.rows.empty()) continue;
         if (!joined.rows.empty() && part.columns != joined.columns) {
-            throw Error(fmt::format("{}: its columns are not those of the runs before it", file.string()));
+            throw Error(fmt::format("{}: its columns differ from those of earlier runs; solve the case again",
+                                    file.string()));
         }
         joined.columns = std::move(part.columns);
         const double first = part.rows.front().front();

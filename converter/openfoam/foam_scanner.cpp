@@ -23,7 +23,7 @@ std::filesystem::path compressed_name(const std::filesystem::path& file) {
 
 Error damage(const std::filesystem::path& file, const char* what) {
     return Error(
-        fmt::format("{}: {}; copy the file again, or let OpenFOAM write it again", file.string(), what));
+        fmt::format("{}: {}; copy the file again, or write it again with OpenFOAM", file.string(), what));
 }
 
 /// Decompresses gzip data of one member or several.
@@ -31,7 +31,7 @@ class Inflation {
   public:
     explicit Inflation(const std::filesystem::path& file) : file_(file) {
         // 15: the largest window; 16 more: gzip's header and checksum.
-        if (inflateInit2(&stream_, 15 + 16) != Z_OK) throw damage(file_, "zlib could not start");
+        if (inflateInit2(&stream_, 15 + 16) != Z_OK) throw damage(file_, "zlib could not be initialised");
     }
     ~Inflation() { inflateEnd(&stream_); }
     Inflation(const Inflation&) = delete;
@@ -65,7 +65,7 @@ class Inflation {
         stream_.avail_out = static_cast<uInt>(block_.size());
         const int status = inflate(&stream_, Z_NO_FLUSH);
         // zlib could make no progress: the input has ended.
-        if (status == Z_BUF_ERROR) throw damage(file_, "the compressed file is cut short");
+        if (status == Z_BUF_ERROR) throw damage(file_, "the compressed file is truncated");
         if (status != Z_OK && status != Z_STREAM_END) throw damage(file_, "the compressed file is damaged");
         text.append(block_, 0, block_.size() - stream_.avail_out);
         return status;
@@ -88,7 +88,7 @@ FoamBytes read_foam_bytes(const std::filesystem::path& file) {
         return {file, read_bytes(file)};
     }
     std::string packed = read_bytes(compressed);
-    if (!packed.starts_with("\x1f\x8b")) throw damage(compressed, "is not compressed by gzip");
+    if (!packed.starts_with("\x1f\x8b")) throw damage(compressed, "is not compressed with gzip");
     return {compressed, Inflation(compressed).inflated(std::move(packed))};
 }
 
@@ -151,7 +151,7 @@ std::string_view FoamScanner::word() {
     const std::size_t start = place_;
     if (start < text_.size() && text_[start] == '"') {
         const std::size_t end = text_.find('"', start + 1);
-        if (end == std::string::npos) throw error("this text has no closing quotation mark");
+        if (end == std::string::npos) throw error("this string has no closing quotation mark");
         place_ = end + 1;
         return std::string_view(text_).substr(start + 1, end - start - 1);
     }
@@ -204,7 +204,7 @@ std::string_view FoamScanner::text_before(char symbol) {
         }
     }
     place_ = start;
-    throw error(fmt::format("this entry is not ended by '{}'", symbol));
+    throw error(fmt::format("this entry does not end with '{}'", symbol));
 }
 
 std::string_view FoamScanner::bytes(std::size_t count) {

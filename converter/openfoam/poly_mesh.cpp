@@ -14,7 +14,7 @@ namespace {
 /// Reads the file boundary.
 std::vector<FoamPatch> read_patches(const std::filesystem::path& file) {
     FoamScanner scanner(file);
-    if (scanner.word() != "FoamFile") throw scanner.error("is no OpenFOAM file");
+    if (scanner.word() != "FoamFile") throw scanner.error("is not an OpenFOAM file");
     scanner.expect('{');
     scanner.text_before('}');
     const std::int64_t count = scanner.integer();
@@ -93,10 +93,9 @@ PolyMesh read_poly_mesh(const std::filesystem::path& poly_mesh) {
             return patch.start <= mesh.faces.size() && patch.size <= mesh.faces.size() - patch.start;
         });
     if (sound) return mesh;
-    throw Error(
-        fmt::format("{}: points, faces, owner, neighbour and boundary are of different meshes; copy "
-                    "the folder again",
-                    poly_mesh.string()));
+    throw Error(fmt::format(
+        "{}: points, faces, owner, neighbour and boundary belong to different meshes; copy the folder again",
+        poly_mesh.string()));
 }
 
 namespace {
@@ -114,8 +113,8 @@ std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& cells, std:
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (cells[i] < 0 || cells[i] >= mesh_cells) {
             throw Error(
-                fmt::format("{}: the mesh has no cell {}, which its zone names; mesh and zone do not "
-                            "belong together",
+                fmt::format("{}: the mesh has no cell {}, which its zone contains; mesh and zone do not "
+                            "match; copy the folder again",
                             poly_mesh.string(), cells[i]));
         }
         places[static_cast<std::size_t>(cells[i])] = static_cast<std::int64_t>(i);
@@ -148,7 +147,7 @@ std::vector<double> cell_volumes(const std::filesystem::path& poly_mesh,
     const std::vector<Vector3d> points = read_points(poly_mesh / "points");
     if (owner.size() != faces.size() || neighbour.size() > faces.size()) {
         throw Error(
-            fmt::format("{}: owner, neighbour and faces are of different meshes; copy the folder again",
+            fmt::format("{}: owner, neighbour and faces belong to different meshes; copy the folder again",
                         poly_mesh.string()));
     }
     const std::int64_t last = owner.empty() ? -1 : *std::max_element(owner.begin(), owner.end());

@@ -55,13 +55,13 @@ double cells_of(const CaseMesh& mesh) {
 
 std::string text_of(const Json& record, const char* key) {
     const auto found = record.find(key);
-    return found != record.end() && found->is_string() ? found->get<std::string>() : "not said";
+    return found != record.end() && found->is_string() ? found->get<std::string>() : "unknown";
 }
 
 std::string number_of(const Json& record, const char* key) {
     const auto found = record.find(key);
     return found != record.end() && found->is_number() ? fmt::format("{:.3g}", found->get<double>())
-                                                       : "not said";
+                                                       : "unknown";
 }
 
 Json record_in(const fs::path& file) {
@@ -73,7 +73,7 @@ Json record_in(const fs::path& file) {
 void require_same_body(const fs::path& folder, const Body& body) {
     const Body solved = read_body_file(folder / "body.body.h5");
     if (std::abs(solved.moments.volume - body.moments.volume) <= 1e-9 * body.moments.volume) return;
-    throw Error(fmt::format("{}: holds the cases of another body; --cases names the folder of this one",
+    throw Error(fmt::format("{}: holds the cases of another body; give --cases with the folder of this one",
                             folder.string()));
 }
 
@@ -192,10 +192,9 @@ Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCal
     if (worst && worst->wall_functions) {
         report_.findings.push_back(
             {worst->below_30 > 0.5 ? Grade::limited : Grade::good, "y+",
-             fmt::format(
-                 "median {:.2g}, below 30 on {} of the body, where wall functions are out of their range{}",
-                 worst->median, per_cent(worst->below_30),
-                 worst->below_30 > 0.5 ? "; --loads kOmegaSSTLM resolves the boundary layer" : "")});
+             fmt::format("median {:.2g}, below 30 on {} of the body, outside the range of wall functions{}",
+                         worst->median, per_cent(worst->below_30),
+                         worst->below_30 > 0.5 ? "; --loads kOmegaSSTLM resolves the boundary layer" : "")});
     } else if (worst) {
         report_.findings.push_back({worst->above_1 > 0.5 ? Grade::limited : Grade::good, "y+",
                                     fmt::format("median {:.2g}, above 1 on {} of the body", worst->median,
@@ -214,16 +213,16 @@ void Folder::add_meshes(const ProgressCall& progress) {
                         number_of(mesh.record, "max_non_orthogonality")});
     }
     ReportPart part{"Meshes and y+",
-                    {picture_block("The meshes where a plane cuts them", meshes_picture(all)),
-                     table_block({"mesh", "cells", "checkMesh", "remedy",
-                                  "area of the body over the true one", "most non-orthogonality (°)"},
+                    {picture_block("Sections of the meshes", meshes_picture(all)),
+                     table_block({"mesh", "cells", "checkMesh", "remedy", "meshed area over true area",
+                                  "largest non-orthogonality (°)"},
                                  rows)}};
     progress(0.5);
     const Rows spacing = spacing_rows(all, [&](double share) { progress(0.5 + 0.5 * share); });
     if (!spacing.empty()) {
         part.blocks.push_back(folded_block(
-            fmt::format("y+ of the cells along the body, of {} cases", spacing.size()),
-            table_block({"case", "wall", "least", "median", "most", "share of the body"}, spacing)));
+            fmt::format("y+ of the cells along the body, in {} cases", spacing.size()),
+            table_block({"case", "wall", "least", "median", "most", "fraction of the body"}, spacing)));
     }
     report_.parts.push_back(std::move(part));
 }
@@ -261,10 +260,10 @@ void Folder::add_histories(const ProgressCall& progress) {
         }
         or_missing([&] { histories.push_back(as_json(read_case_history(path_ / one.name, plan_, one))); });
     }
-    ReportPart part{"How the cases settled", {}};
+    ReportPart part{"Convergence of the cases", {}};
     if (!histories.empty()) {
         part.blocks.push_back(
-            picture_block("Drag, moment, k and residuals of all cases over their iterations",
+            picture_block("Drag, moment, k and residuals of all cases against iterations",
                           {{"picture", "histories"}, {"name", body_.name}, {"cases", histories}}));
     }
     if (!failed.empty()) part.blocks.push_back(table_block({"not solved", "why"}, failed));
@@ -294,7 +293,7 @@ struct OscillationErrors {
         const double more = std::abs(simulated.inclination_amplitude - solved.inclination_amplitude);
         if (more > 1.0 / degrees) amplitude = std::max(amplitude, more / solved.inclination_amplitude);
         if (regimes.empty() && simulated.regime != solved.regime) {
-            regimes = fmt::format("; {} is {} where it was solved as {}", fall.name,
+            regimes = fmt::format("; {} is simulated as {}, but solved as {}", fall.name,
                                   name_of(simulated.regime), name_of(solved.regime));
         }
     }
@@ -302,7 +301,7 @@ struct OscillationErrors {
     [[nodiscard]] Finding finding() const {
         const bool alike = frequency <= same_frequency && amplitude <= same_amplitude && regimes.empty();
         return {alike ? Grade::good : Grade::bad, swings_of_falls,
-                fmt::format("of the same falls, frequencies differ by up to {}, amplitudes by {}{}",
+                fmt::format("frequencies of the same falls differ by up to {}, amplitudes by {}{}",
                             per_cent(frequency), per_cent(amplitude), regimes)};
     }
 };
@@ -320,10 +319,10 @@ Json fall_picture(const Body& body, const FallRecord& record) {
     one.name = name + ", simulated";
     one.file = &simulated;
     FallChoice other;
-    other.name = name + ", solved";
+    other.name = name + ", by full CFD";
     other.file = &solved;
     const Comparison comparison = compare(one, other, {}, [](double, double) {});
-    return picture_block(name + ": its path, inclination and oscillations, solved and simulated",
+    return picture_block(name + ": path, inclination and oscillations, by full CFD and simulated",
                          comparison_picture(comparison, one.name, "solved by full CFD"));
 }
 
@@ -358,12 +357,12 @@ void Folder::add_falls(const ProgressCall& progress) {
     progress(1.0);
     if (rows.empty()) return;
     ReportPart part{
-        "The falls, solved and simulated",
-        {text_block("Descent speed, frequency, inclination that 95 % are below, rms angular speed and "
-                    "regime: of the free falls "
-                    "in full CFD, and of the runtime's simulations from the same starts with this file."),
+        "Falls by full CFD and simulated",
+        {text_block(
+             "Descent speed, frequency, 95th percentile of the inclination, rms angular speed and regime of "
+             "the free falls by full CFD, and of simulations from the same starts with this file."),
          table_block({"fall", "solved", "simulated", "descent speeds differ by",
-                      "momenta balance to (force, moment)", "density kg/m³"},
+                      "momentum balance (force, moment)", "density kg/m³"},
                      rows)}};
     part.blocks.insert(part.blocks.end(), pictures.begin(), pictures.end());
     report_.parts.push_back(std::move(part));
@@ -373,12 +372,12 @@ void Folder::add_falls(const ProgressCall& progress) {
              : farthest <= poor_fall ? Grade::limited
                                      : Grade::bad,
              "falls",
-             fmt::format("simulated from the starts of the solved falls, descent speeds differ by up to {}",
+             fmt::format("descent speeds simulated from the starts of the solved falls differ by up to {}",
                          per_cent(farthest))});
         report_.findings.push_back(oscillations.finding());
         report_.findings.push_back(
             {is_unbalanced(worst) ? Grade::limited : Grade::good, "balance",
-             fmt::format("the solved falls' momenta balance to {} (force) and {} (moment)",
+             fmt::format("the momentum balance of the solved falls is off by {} (force) and {} (moment)",
                          per_cent(worst.force), per_cent(worst.moment))});
     }
 }

@@ -123,7 +123,7 @@ FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& ca
     std::optional<SurfaceTrend> trend;
     if (surface && symmetry.type == Symmetry::Type::finite) trend.emplace(*surface, symmetry, main);
     ReynoldsTable main_table = table_of(CasePurpose::table, main, cases, tail, asymmetry);
-    if (main_table.samples.empty()) throw Error("has no solved case for the table");
+    if (main_table.samples.empty()) throw Error("has no solved case for the tables");
     ReynoldsTable before = table_of(CasePurpose::mesh, main, cases, tail, asymmetry);
     FittedTables result;
     if (before.samples.size() > main_table.samples.size()) {

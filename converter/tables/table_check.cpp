@@ -71,7 +71,7 @@ TableCheck check_tables(const LoadTables& tables, const std::vector<SolvedCase>&
         check.cases.push_back(
             {solved.name, solved.sample.direction, solved.reynolds_number, value, difference, stated});
     }
-    if (check.cases.empty()) throw Error("there is no case of purpose table to compare the tables with");
+    if (check.cases.empty()) throw Error("no case has the purpose table; give a file with such cases");
     check.force = force.result();
     check.moment = moment.result();
     check.turbulent_kinetic_energy = k.result();

@@ -166,10 +166,10 @@ std::vector<TimeFolder> times_of(const std::filesystem::path& case_folder, bool 
     for (std::size_t i = 1; i < times.size(); ++i) {
         const double difference = times[i].time - times[i - 1].time;
         if (std::abs(difference - interval) <= 1e-3 * interval) continue;
-        throw Error(fmt::format(
-            "{}: its times are not evenly apart ({:g} s before this one, {:g} s on average); have "
-            "it written at even times, or take --latest alone",
-            times[i].path.string(), difference, interval));
+        throw Error(
+            fmt::format("{}: its times are not equally spaced ({:g} s before this one, {:g} s on average); "
+                        "write the case at equal intervals, or use --latest",
+                        times[i].path.string(), difference, interval));
     }
     return times;
 }
@@ -201,9 +201,8 @@ WindGrid read_foam_wind(const std::filesystem::path& case_folder, const FoamWind
     for (std::size_t frame = 0; frame < times.size(); ++frame) {
         const FoamField<Vector3d> field = read_vector_field(times[frame].path / "U");
         if (!field.covers(cells.size() - 1)) {
-            throw Error(
-                fmt::format("{}: has fewer values than the mesh has cells; they do not belong together",
-                            (times[frame].path / "U").string()));
+            throw Error(fmt::format("{}: has fewer values than the mesh has cells; copy the case again",
+                                    (times[frame].path / "U").string()));
         }
         for (std::size_t node = 0; node < found.size(); ++node) {
             Vector3d velocity = Vector3d::Zero();
@@ -232,10 +231,10 @@ void lay_nodes(WindGrid& grid, const Eigen::AlignedBox3d& box) {
         const double intervals = std::ceil(box.sizes()[i] / grid.spacing[i] - 1e-6);
         nodes *= intervals + 1.0;
         if (nodes > most_nodes) {
-            throw Error(fmt::format(
-                "the wind would take more than {:g} nodes over all times; give a larger --spacing "
-                "than {:g} m",
-                most_nodes, grid.spacing.minCoeff()));
+            throw Error(
+                fmt::format("the wind would have more than {:g} nodes over all times; give a larger "
+                            "--spacing than {:g} m",
+                            most_nodes, grid.spacing.minCoeff()));
         }
         grid.nodes[axis] = static_cast<std::size_t>(intervals) + 1;
     }

@@ -110,10 +110,11 @@ class VdbVelocity {
         throw error(
             file,
             options_.grid.empty()
-                ? fmt::format("holds {}, of which none is known as a velocity; name one of vectors with "
-                              "--grid",
-                              held)
-                : fmt::format("holds {}, and no velocity '{}' of single precision", held, options_.grid));
+                ? fmt::format(
+                      "holds {}, none of which is recognised as a velocity; name a vector grid with --grid",
+                      held)
+                : fmt::format("holds {}, but no single-precision velocity '{}'; give --grid", held,
+                              options_.grid));
     }
 
     /// Sets the voxel size of a grid in index space. Throws Error where that is not given, or the grid is no
@@ -121,16 +122,13 @@ class VdbVelocity {
     void place(const std::filesystem::path& file, openvdb::GridBase& grid) const {
         if (!grid.transform().isLinear()) {
             throw error(file,
-                        fmt::format("the grid '{}' is a frustum, as of a camera's view; resample it to a box",
-                                    grid.getName()));
+                        fmt::format("the grid '{}' is a frustum; resample it to a box", grid.getName()));
         }
         const bool in_index_space = grid.transform().isIdentity();
         if (in_index_space && !options_.voxel_size) {
-            throw error(
-                file,
-                fmt::format("the grid '{}' is in index space: it does not say how large its voxels are; give "
-                            "--voxel-size in metres",
-                            grid.getName()));
+            throw error(file, fmt::format("the grid '{}' is in index space and does not define its voxel "
+                                          "size; give --voxel-size in metres",
+                                          grid.getName()));
         }
         if (in_index_space)
             grid.setTransform(openvdb::math::Transform::createLinearTransform(*options_.voxel_size));
@@ -150,9 +148,9 @@ void append(const VdbVelocity& velocity, const std::filesystem::path& file, Wind
                 if (!there.allFinite()) {
                     throw error(
                         file,
-                        fmt::format("the velocity at ({:.4g}, {:.4g}, {:.4g}) m is not finite; mend it where "
-                                    "it was made",
-                                    place.x(), place.y(), place.z()));
+                        fmt::format(
+                            "the velocity at ({:.4g}, {:.4g}, {:.4g}) m is not finite; export the grid again",
+                            place.x(), place.y(), place.z()));
                 }
                 for (Eigen::Index i = 0; i < 3; ++i) grid.velocities.push_back(static_cast<float>(there[i]));
             }
@@ -163,7 +161,7 @@ void append(const VdbVelocity& velocity, const std::filesystem::path& file, Wind
 }  // namespace
 
 WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const VdbOptions& options) {
-    if (files.empty()) throw Error("no .vdb file was given");
+    if (files.empty()) throw Error("no .vdb file was given; give one");
     openvdb::initialize();
     WindGrid grid;
     grid.frames = files.size();
@@ -182,7 +180,7 @@ WindGrid read_vdb_wind(const std::vector<std::filesystem::path>& files, const Vd
         velocity.widen(box);
         report();
     }
-    if (box.isEmpty()) throw error(files.front(), "has no active voxel, nor has another of the files");
+    if (box.isEmpty()) throw error(files.front(), "none of the files has an active voxel; export them again");
     const openvdb::Vec3d size = z_up(*voxel, options.y_up);
     grid.spacing = Vector3d(size.x(), size.y(), size.z()).cwiseAbs();
     if (options.spacing) grid.spacing.setConstant(*options.spacing);

@@ -280,7 +280,7 @@ namespace fs = std::filesystem;
 fs::path require_program(const std::string& name) {
     if (auto program = find_program(name)) return *program;
     throw Error(fmt::format(
-        "the program {} is not installed beside this one nor on PATH; install samara again", name));
+        "the program {} is neither installed beside this program nor on PATH; install samara again", name));
 }
 
 // Returns the error that a program of samara printed in its last line, without the program's name.
@@ -291,7 +291,7 @@ std::string error_in(const fs::path& log, const std::string& program) {
         if (!line.empty()) last = line;
     }
     const std::string prefix = program + ": ";
-    if (last.empty()) return fmt::format("{} failed without a message", program);
+    if (last.empty()) return fmt::format("{} failed without a message; run it alone to see why", program);
     return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
 }
 
@@ -304,12 +304,14 @@ void run_stage(const std::vector<std::string>& words, const fs::path& log, const
 Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
     if (is_body_file_name(shape)) {
         if (scale != 1.0) {
-            throw Error(fmt::format("{}: a body file is in metres and takes no scale; scale the shape file",
-                                    shape.string()));
+            throw Error(fmt::format(
+                "{}: a body file is already in metres; leave the scale out, or scale the shape file",
+                shape.string()));
         }
         return read_body_file(shape);
     }
-    if (!fs::is_regular_file(shape)) throw Error(fmt::format("{}: there is no such file", shape.string()));
+    if (!fs::is_regular_file(shape))
+        throw Error(fmt::format("{}: does not exist; check the name", shape.string()));
     const fs::path meshed = folder / "shape.body.h5";
     const std::string name = shape.string().starts_with('-') ? "./" + shape.string() : shape.string();
     std::vector<std::string> words = {require_program("samara-mesh").string(), name, "-o", meshed.string()};
@@ -341,7 +343,9 @@ void add_kirchhoff_tensor(Body& body, const fs::path& shape, const fs::path& ear
     const Body solved = read_body_file(file);
     body.kirchhoff = solved.kirchhoff;
     body.surface_loads = solved.surface_loads;
-    if (!body.kirchhoff) throw Error(fmt::format("{}: has no Kirchhoff tensor", body.name));
+    if (!body.kirchhoff)
+        throw Error(
+            fmt::format("{}: has no Kirchhoff tensor; compute it with 'samara kirchhoff'", body.name));
 }
 
 std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::filesystem::path& folder,

@@ -294,12 +294,12 @@ double bake_speed(const Body& body, const Fluid& fluid, double mass, double grav
     if (speed > 0.0) return speed;
     if (gravity > 0.0) {
         throw Error(
-            fmt::format("{}: the body weighs as much as the fluid it displaces ({:.6g} kg/m^3) and so has no "
-                        "terminal speed to bake at; choose another density",
+            fmt::format("{}: the body is as dense as the fluid ({:.6g} kg/m^3) and has no terminal speed to "
+                        "bake at; give another density",
                         body.name, fluid.density));
     }
     throw Error(fmt::format(
-        "{}: without gravity the body has no terminal speed to bake at; choose another gravity", body.name));
+        "{}: without gravity the body has no terminal speed to bake at; give another gravity", body.name));
 }
 
 double rounded_reynolds_number(double reynolds_number) {
@@ -372,7 +372,8 @@ Closure closure_at(double reynolds_number, Closure turbulent) {
 }
 
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
-    // For k-epsilon, means over the cases of docs/explanation/bake.md whose tails were compared with longer runs.
+    // For k-epsilon, means over the cases of docs/explanation/bake.md whose tails were compared with longer
+    // runs.
     if (entry.closure == Closure::k_epsilon)
         return (entry.start_from.empty() ? 1.3 : 1.2) * plan.quality.least_iterations;
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;

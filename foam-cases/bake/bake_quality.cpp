@@ -156,8 +156,8 @@ BakeQuality bake_quality(const std::string& name) {
     for (const auto make : {smoke_quality, preview_quality, standard_quality, high_quality}) {
         if (BakeQuality quality = make(); quality.name == name) return quality;
     }
-    throw Error(fmt::format("there is no bake quality '{}'; choose one of {}", name,
-                            fmt::join(bake_quality_names(), ", ")));
+    throw Error(
+        fmt::format("unknown quality '{}'; choose one of {}", name, fmt::join(bake_quality_names(), ", ")));
 }
 
 Closure usual_loads_closure(const std::string& quality) {

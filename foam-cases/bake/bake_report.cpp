@@ -133,7 +133,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
     if (!preparation.plan) {
-        print_result("{}: mesh and Kirchhoff tensor only; the scene asks for no tables\n",
+        print_result("{}: mesh and Kirchhoff tensor only; the scene uses no tables\n",
                      request.output.string());
         return;
     }
@@ -151,7 +151,7 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
     }
     const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
     print_result(
-        "meshes of about {:.0f} cells, {:.0f} CPU seconds in all, {:.0f} s with {} jobs, {:.0f} MB on the "
+        "meshes of about {:.0f} cells, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on "
         "disk\n",
         fmt::join(plan.cells, ", "), plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
         1e-6 * bytes_to_solve(case_folder_of(request.output), plan));
@@ -164,15 +164,14 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
         return;
     }
     if (!result.conversion) {
-        print_result("{}: mesh and Kirchhoff tensor; the scene asks for no tables\n",
-                     request.output.string());
+        print_result("{}: mesh and Kirchhoff tensor; the scene uses no tables\n", request.output.string());
         return;
     }
     const BakePlan& plan = *result.preparation.plan;
     const auto& cases = result.conversion->cases;
     print_result("{}: quality {}, {} cases at Reynolds numbers {:.6g}", request.output.string(),
                  plan.quality.name, plan.cases.size(), fmt::join(plan.reynolds_numbers(), ", "));
-    if (result.reused > 0) print_result(", {} of them solved before", result.reused);
+    if (result.reused > 0) print_result(", {} of them reused", result.reused);
     print_result("\n{:<28} {:>26} {:>8} {:>10} {:>13} {:>7}\n", "case", "direction of motion", "drag",
                  "k/U^2", "epsilon L/U^3", "CPU s");
     for (const SolvedCase& solved : cases) {
@@ -194,8 +193,8 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     }
     print_result("{}", account_as_text(result.account));
     print_result(
-        "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in all), tables {:.1f} s; "
-        "the cases are in {}\n",
+        "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in total), tables {:.1f} "
+        "s; the cases are in {}\n",
         result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.cpu_seconds,
         result.conversion_seconds, case_folder_of(request.output).string());
 }
@@ -210,9 +209,9 @@ void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePrepa
     if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
     notes.add(
         "laminar", name, preparation.plan->main_reynolds_number,
-        fmt::format("at Reynolds number {:.3g}, below {:.0f}, the flow is taken as laminar: loads, but no "
-                    "turbulence",
-                    preparation.plan->main_reynolds_number, laminar_reynolds_number));
+        fmt::format(
+            "at Reynolds number {:.3g}, below {:.0f}, the flow is assumed laminar: loads, but no turbulence",
+            preparation.plan->main_reynolds_number, laminar_reynolds_number));
 }
 
 void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result) {
@@ -221,7 +220,7 @@ void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result
     for (const LeftOutCase& failed : result.left_out) {
         cases.push_back(fmt::format("{} ({})", failed.name, failed.reason));
     }
-    print_note("samara bake: note: of {} left out after retries: {}\n",
+    print_note("samara bake: warning: of {} left out after retries: {}\n",
                case_folder_of(request.output).string(), fmt::join(cases, ", "));
 }
 
@@ -230,8 +229,8 @@ void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& resu
     for (const SimulatedFall& fall : result.conversion->identification->falls) {
         if (!is_unbalanced(fall.balance)) continue;
         print_note(
-            "samara bake: note: {}: the momenta of {} do not balance the loads (force {:.0f} %, "
-            "moment {:.0f} %), and the coefficients are from it; halve its step with --fall-step {:.3g}\n",
+            "samara bake: warning: {}: {} does not conserve momentum (force off by {:.0f} %, moment by "
+            "{:.0f} %), and its coefficients may be wrong; halve its step with --fall-step {:.3g}\n",
             request.output.string(), fall.name, 100.0 * fall.balance.force, 100.0 * fall.balance.moment,
             0.5 * request.quality.fall_step);
     }

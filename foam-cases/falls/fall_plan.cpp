@@ -28,8 +28,8 @@ constexpr double stable_share = 0.85;
 constexpr double negligible_arm = 1e-9;
 
 // CPU seconds, measured with pimpleFoam v1912, one outer and two pressure correctors: on a core of its
-// own 2.7e-6 by k-epsilon, 3.7e-6 without a closure and 5e-6 by the others (docs/explanation/full-cfd.md). Two cores that
-// other work shares take 1.46 times as long.
+// own 2.7e-6 by k-epsilon, 3.7e-6 without a closure and 5e-6 by the others (docs/explanation/full-cfd.md).
+// Two cores that other work shares take 1.46 times as long.
 double seconds_per_cell_and_step(Closure closure) {
     constexpr double shared = 1.46;
     if (closure == Closure::k_epsilon) return shared * 2.7e-6;
@@ -204,7 +204,7 @@ Closure closure_of_falls(const std::string& name) {
         if (name_of(closure) == name) return closure;
     }
     throw Error(fmt::format(
-        "falls are not solved by '{}'; choose kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES, laminar or kEpsilon",
+        "falls cannot be solved by '{}'; choose kOmegaSSTLM, kOmegaSST, kOmegaSSTDDES, laminar or kEpsilon",
         name));
 }
 

@@ -45,10 +45,10 @@ double speed_unit(const Falling& falling) {
                                            falling.scene.gravity.norm()));
     }
     if (speed > 0.0) return speed;
-    throw Error(fmt::format(
-        "{}: the body '{}' is as dense as the fluid and does not move at the start, so that there "
-        "is nothing to solve; give it another density or a velocity",
-        falling.scene.file.string(), falling.immersed.name));
+    throw Error(
+        fmt::format("{}: the body '{}' is as dense as the fluid and starts at rest, so it does not fall; "
+                    "give it another density or a velocity",
+                    falling.scene.file.string(), falling.immersed.name));
 }
 
 Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path& temporary) {
@@ -137,19 +137,21 @@ void require_falls_of_one_body(const Scene& scene) {
         return Error(fmt::format("{}: {}", scene.file.string(), what));
     };
     if (scene.bodies.size() != 1) {
-        throw reject("full CFD solves one body at a time; make a scene for each body");
+        throw reject("full CFD solves one body at a time; write one scene for each body");
     }
     const SceneBody& body = scene.bodies.front();
     if (body.spreads_size())
-        throw reject("full CFD solves copies of the shape's own size; drop 'size' from 'spread'");
+        throw reject("full CFD does not support scaled copies; remove 'size' from 'spread'");
     if (scene.ground)
-        throw reject("full CFD knows no ground; drop 'ground' and let the scene end before the landing");
-    if (!scene.obstacles.empty()) throw reject("full CFD knows no obstacles; drop [[obstacle]]");
+        throw reject(
+            "full CFD does not support a ground; remove 'ground' and let the scene end before the landing");
+    if (!scene.obstacles.empty()) throw reject("full CFD does not support obstacles; remove [[obstacle]]");
     if (!scene.wind.is_calm())
-        throw reject("full CFD knows no wind; drop [wind], or give a uniform one as 'current'");
-    if (scene.fluid.gust.amplitude.norm() > 0.0) throw reject("full CFD knows no gust; drop 'gust'");
+        throw reject("full CFD does not support wind; remove [wind], or give a uniform one as 'current'");
+    if (scene.fluid.gust.amplitude.norm() > 0.0)
+        throw reject("full CFD does not support gusts; remove 'gust'");
     if (!(scene.duration > body.start + body.spread_start))
-        throw reject("the scene ends before its body starts");
+        throw reject("the scene ends before its body starts; give a longer duration, or an earlier start");
 }
 
 Motion with_uncertainties(const fs::path& file, const OtherSolutions& beside) {
@@ -254,7 +256,9 @@ std::vector<Pose> poses_at(const std::vector<double>& times, const SolvedFall& f
         poses.push_back(in_world(pose, surroundings, frame_time));
     }
     if (poses.size() < 2) {
-        throw Error(fmt::format("{}: the fall ends before its second frame", fall.record.fall.name));
+        throw Error(fmt::format(
+            "{}: the fall ends before its second frame; give a longer duration or a higher frame_rate",
+            fall.record.fall.name));
     }
     return poses;
 }

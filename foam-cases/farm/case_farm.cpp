@@ -90,15 +90,15 @@ std::string error_of(const fs::path& folder, const std::string& name, bool on_cl
                            (folder / name / job_log).string());
     }
     if (on_cluster && line.empty() && !fs::exists(folder / name / job_log)) {
-        return fmt::format("{}: its cluster job left nothing there; is that a folder that the nodes share?",
+        return fmt::format("{}: its cluster job wrote nothing there; use a folder that the nodes share",
                            (folder / name).string());
     }
     std::error_code unknown;
     if (fs::space(folder, unknown).available < room_of_a_log && !unknown) {
-        return fmt::format("{}: was not run to its end: the disk is full; make room and run again",
+        return fmt::format("{}: did not finish: the disk is full; free some space and run again",
                            (folder / name).string());
     }
-    return fmt::format("{}: was not run to its end; see {}", (folder / name).string(),
+    return fmt::format("{}: did not finish; see {}", (folder / name).string(),
                        (folder / "log.snakemake").string());
 }
 
@@ -256,11 +256,11 @@ void run_snakemake(const fs::path& folder, const BakePlan& plan, const FarmOptio
     if (status) return;
     if (plan.type == CaseType::fall) {
         throw Error(
-            fmt::format("interrupted: what is solved is kept in {}; the same command goes on from there",
+            fmt::format("interrupted: solved cases are kept in {}; run the same command again to continue",
                         folder.string()));
     }
     throw Error(fmt::format(
-        "interrupted: {} of {} cases are solved and kept in {}; the same command goes on from there",
+        "interrupted: {} of {} cases are solved and kept in {}; run the same command again to continue",
         count_solved(folder, plan), jobs_of(plan).size(), folder.string()));
 }
 
@@ -293,10 +293,10 @@ void require_container(const std::string& work, const std::vector<std::string>& 
             // reported below
         }
         if (status == 0) continue;
-        throw Error(fmt::format(
-            "{} needs OpenFOAM, but '{}' fails with exit status {}; set SAMARA_OPENFOAM to the words "
-            "that run a program in its container, such as 'apptainer exec openfoam.sif'",
-            work, fmt::join(words, " "), status));
+        throw Error(
+            fmt::format("{} needs OpenFOAM, but '{}' fails with exit status {}; set SAMARA_OPENFOAM to the "
+                        "command that runs a program in its container, such as 'apptainer exec openfoam.sif'",
+                        work, fmt::join(words, " "), status));
     }
 }
 

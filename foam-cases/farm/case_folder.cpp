@@ -25,11 +25,11 @@ constexpr const char* helper_file = "case_files.py";
 
 // The README of a folder of cases.
 constexpr const char* folder_notes =
-    "OpenFOAM cases and their meshes, by samara (docs/explanation/bake.md, docs/reference/file-formats.md). ParaView opens each by "
-    "its file\n"
-    "case.foam. The folder may be moved and copied as a whole: no link leads out of it. A case's mesh is a "
-    "link to the\n"
-    "mesh's own folder beside it; to copy one case alone take 'cp -rL CASE ELSEWHERE', which copies the mesh "
+    "OpenFOAM cases and their meshes, by samara (docs/explanation/bake.md, docs/reference/file-formats.md). "
+    "ParaView opens each by its file\n"
+    "case.foam. The folder may be moved and copied as a whole: it has no links to outside. A case's mesh is "
+    "a link to the\n"
+    "mesh's own folder beside it; to copy a single case, use 'cp -rL CASE ELSEWHERE', which copies the mesh "
     "too.\n";
 
 // The files that a fall's case shares with the flow's: the fluid and its turbulence.
@@ -59,7 +59,7 @@ CaseFiles read_template(const fs::path& folder) {
         }
     }
     if (!files.contains("parameters") || !files.contains("Allrun")) {
-        throw Error(fmt::format("{}: is no case template: it needs the files parameters and Allrun",
+        throw Error(fmt::format("{}: is not a case template: it needs the files parameters and Allrun",
                                 folder.string()));
     }
     files[helper_file] = read_bytes(folder.parent_path() / helper_file);
@@ -221,10 +221,10 @@ void require_cases_of(CaseType type, const fs::path& folder) {
     if (json.empty()) return;
     const CaseType found = type_of_plan(json);
     if (found == type) return;
-    throw Error(fmt::format(
-        "{}: holds the cases of samara {}, which would be lost; choose another name for the output, "
-        "or remove the folder",
-        folder.string(), found == CaseType::fall ? "validate" : "bake"));
+    throw Error(
+        fmt::format("{}: holds the cases of samara {}, which would be overwritten; choose another name for "
+                    "the output, or remove the folder",
+                    folder.string(), found == CaseType::fall ? "validate" : "bake"));
 }
 
 void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,

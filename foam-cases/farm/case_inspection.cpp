@@ -60,8 +60,8 @@ class FolderInspection {
 
   private:
     [[nodiscard]] Error error(const fs::path& file, const std::string& what) const {
-        return Error(fmt::format("{}: {}; remove it, or the whole of {}, which is then solved again",
-                                 file.string(), what, folder_.string()));
+        return Error(fmt::format("{}: {}; remove it, or all of {}, which is then solved again", file.string(),
+                                 what, folder_.string()));
     }
 
     void inspect(const fs::path& inside) const {
@@ -82,7 +82,7 @@ class FolderInspection {
     static std::string what_it_is(fs::file_type type) {
         if (type == fs::file_type::symlink) return "is a link, which is not followed here";
         if (type == fs::file_type::directory)
-            return "is a folder that neither samara nor OpenFOAM makes here";
+            return "is a folder that neither samara nor OpenFOAM creates here";
         if (type == fs::file_type::regular) return "is a file that neither samara nor OpenFOAM writes here";
         return "is neither a file nor a folder";
     }
@@ -157,10 +157,9 @@ void require_known_files(const fs::path& cases, const InputFolders& planned) {
     const fs::file_type type = fs::symlink_status(cases).type();
     if (type == fs::file_type::not_found) return;
     if (type != fs::file_type::directory) {
-        throw Error(
-            fmt::format("{}: is no folder but {}; cases are solved in a folder: remove it, or choose another "
-                        "name for the output",
-                        cases.string(), type == fs::file_type::symlink ? "a link" : "a file"));
+        throw Error(fmt::format(
+            "{}: is {}, but cases are solved in a folder; remove it, or choose another name for the output",
+            cases.string(), type == fs::file_type::symlink ? "a link" : "a file"));
     }
     for (const auto& entry : fs::directory_iterator(cases)) {
         const std::string name = entry.path().filename().string();
@@ -183,7 +182,7 @@ void require_known_files(const fs::path& cases, const InputFolders& planned) {
             "{}: is {}; move it out of {}, or remove that folder, whose cases are then solved again",
             entry.path().string(),
             entry_type == fs::file_type::symlink ? "a link, which is not followed here"
-                                                 : "nothing that samara makes here",
+                                                 : "not created by samara",
             cases.string()));
     }
 }

@@ -145,10 +145,10 @@ void require_room(const fs::path& folder, double bytes) {
     std::error_code unknown;
     const auto free = static_cast<double>(fs::space(folder, unknown).available);
     if (unknown || free > 0.5 * bytes) return;
-    throw Error(fmt::format(
-        "{}: what is to be solved takes about {:.3g} MB there, and {:.3g} MB are free on its disk; make "
-        "room, or name an output elsewhere",
-        folder.string(), 1e-6 * bytes, 1e-6 * free));
+    throw Error(
+        fmt::format("{}: the cases need about {:.3g} MB, but {:.3g} MB are free on this disk; free some "
+                    "space, or choose another output",
+                    folder.string(), 1e-6 * bytes, 1e-6 * free));
 }
 
 }  // namespace samara

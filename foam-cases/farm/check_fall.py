@@ -25,7 +25,7 @@ def check_fall(folder):
     log = os.path.join(folder, "log.pimpleFoam")
     if done["verdict"] == "failed":
         tried = ", ".join(one["what"] for one in done["attempts"])
-        raise Failure(f"diverged in all attempts ({tried}); the last: {last['end']}; a smaller --step may hold")
+        raise Failure(f"diverged in all attempts ({tried}); the last: {last['end']}; try a smaller --step")
     if done["verdict"] is None:
         raise CaseError(stopping_error(folder, log))
     text = read(log)

@@ -43,7 +43,7 @@ def final_residuals(log_text, log):
 def check_solution(folder):
     rounds = read_record(os.path.join(folder, "rounds.json"))
     if not rounds:
-        raise CaseError("was stopped before its first round; run again to go on")
+        raise CaseError("was stopped before its first round; run again to continue")
     parameters = read(os.path.join(folder, "parameters"))
     log = os.path.join(folder, "log." + word(parameters, "solver"))
     last = rounds["attempts"][-1]

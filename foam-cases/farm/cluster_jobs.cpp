@@ -53,20 +53,19 @@ std::string output_of(const std::vector<std::string>& words) {
 
 void require_sbatch(const std::string& command) {
     if (fs::path(first_word(command).first).filename() == "sbatch") return;
-    throw Error(fmt::format(
-        "--cluster \"{}\": only Slurm's sbatch is known, as in --cluster \"sbatch --time=30\"; for "
-        "another scheduler run the Snakefile by hand with a profile for it",
-        command));
+    throw Error(
+        fmt::format("--cluster \"{}\": only Slurm's sbatch is supported, as in --cluster \"sbatch "
+                    "--time=30\"; for another scheduler run the Snakefile by hand with a profile for it",
+                    command));
 }
 
 void require_slurm() {
     try {
         output_of({"squeue", "--noheader", "--name=samara"});
     } catch (const Error& error) {
-        throw Error(
-            fmt::format("--cluster: Slurm does not answer ({}); is this a machine of the cluster, or is "
-                        "SLURM_CONF to be set?",
-                        error.what()));
+        throw Error(fmt::format(
+            "--cluster: Slurm does not respond ({}); run on a machine of the cluster, or set SLURM_CONF",
+            error.what()));
     }
 }
 
@@ -95,7 +94,7 @@ void end_earlier_jobs(const fs::path& folder) {
     const auto start = std::chrono::steady_clock::now();
     while (!output_of({"squeue", "--noheader", name}).empty()) {
         if (std::chrono::steady_clock::now() - start > longest_end) {
-            throw Error(fmt::format("{}: jobs of an earlier bake do not end on the cluster; see squeue {}",
+            throw Error(fmt::format("{}: jobs of an earlier bake still run on the cluster; see squeue {}",
                                     folder.string(), name));
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(500));

@@ -135,8 +135,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     }
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
         ::close(descriptor_);
-        throw Error(fmt::format("{}: another bake is at work there; wait for its end, or name another output",
-                                folder.string()));
+        throw Error(
+            fmt::format("{}: another bake is running there; wait for it to finish, or choose another output",
+                        folder.string()));
     }
 }
 

@@ -138,7 +138,7 @@ def make_mesh(folder):
     remedy, entries, judgement = best
     if judgement.fatal:
         raise Failure(f"the body cannot be meshed: {judgement.fatal[0]}, and {len(attempts) - 1} remedies did not help: "
-                      f"parts may be too thin for the cells; thicken them, or take a finer --quality; "
+                      f"parts may be too thin for the cells; thicken them, or use a finer --quality; "
                       f"see {folder}/log.snappyHexMesh")
     seconds = sum(tried[2].seconds for tried in attempts)
     if best is not attempts[-1]:

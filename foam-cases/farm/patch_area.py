@@ -21,7 +21,7 @@ def read_file(path):
         raise CaseError(f"{path}: {error.strerror}") from error
     header = re.search(rb"FoamFile\s*\{.*?\}", content, re.DOTALL)
     if not header:
-        raise CaseError(f"{path}: is no file of OpenFOAM; make the mesh again")
+        raise CaseError(f"{path}: is not an OpenFOAM file; make the mesh again")
     return header.group(0).decode(errors="replace"), content[header.end():]
 
 
@@ -40,11 +40,11 @@ def binary_list(path, content, start, code, components=1):
     """Returns the next list of a binary file from `start` on, with `components` values per entry, and where it ends."""
     opening = re.compile(rb"(\d+)\s*\(").search(content, start)
     if not opening:
-        raise CaseError(f"{path}: is cut short; make the mesh again")
+        raise CaseError(f"{path}: is truncated; make the mesh again")
     values = array.array(code)
     end = opening.end() + int(opening.group(1)) * components * values.itemsize
     if end > len(content):
-        raise CaseError(f"{path}: is cut short; make the mesh again")
+        raise CaseError(f"{path}: is truncated; make the mesh again")
     values.frombytes(content[opening.end():end])
     if sys.byteorder == "big":
         values.byteswap()

@@ -178,11 +178,11 @@ void require_loads(const SceneGoal& goal, const SampledFalls& simulation) {
     const SceneBody& body = scene.bodies[goal.body];
     const double mean = mean_reynolds_number(simulation.visits);
     if (scene.step <= scene.duration - body.start && mean > 0.0 && std::isfinite(mean)) return;
-    throw Error(fmt::format(
-        "{}: the body '{}' does not move within the scene, so that no cases can be planned "
-        "for it: it starts at {:.6g} s, and the scene ends at {:.6g} s, in steps of {:.6g} s; let "
-        "the scene last longer, or take shorter steps",
-        scene.file.string(), body.name, body.start, scene.duration, scene.step));
+    throw Error(
+        fmt::format("{}: the body '{}' does not move in the scene, so no cases can be planned for it: it "
+                    "starts at {:.6g} s, and the scene ends at {:.6g} s, in steps of {:.6g} s; give a longer "
+                    "duration or a shorter step",
+                    scene.file.string(), body.name, body.start, scene.duration, scene.step));
 }
 
 }  // namespace
@@ -267,8 +267,9 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
     }
     estimate_cost(next.cases);
     if (goal.budget && next.cases.cpu_seconds > *goal.budget) {
-        plan.stopped_because = fmt::format(
-            "the next round would take {:.0f} CPU seconds in all, beyond the budget", next.cases.cpu_seconds);
+        plan.stopped_because =
+            fmt::format("the next round would take {:.0f} CPU seconds in total, beyond the budget",
+                        next.cases.cpu_seconds);
         return;
     }
     plan = std::move(next);

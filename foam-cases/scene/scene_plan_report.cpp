@@ -106,18 +106,19 @@ std::string round_as_line(const SceneGoal& goal, const ScenePlan& plan) {
     const PlanRound& round = plan.rounds.back();
     const std::string errors = errors_as_text(round.error);
     return fmt::format(
-        "round {}: {} directions, {:.0f} CPU s; the tables leave uncertain: {}{}; {}", plan.rounds.size(),
+        "round {}: {} directions, {:.0f} CPU s; uncertainty from the tables: {}{}; {}", plan.rounds.size(),
         round.directions, round.cpu_seconds, errors.empty() ? "nothing" : errors,
         round.strayed > 0.0 ? fmt::format("; {:.0f} % of the time outside the plan", 100.0 * round.strayed)
                             : "",
         plan.stopped_because.empty()
-            ? fmt::format("goes on, for {:.0f} % of descent speed are asked", 100.0 * goal.tolerance)
+            ? fmt::format("continues, as the tolerance of the descent speed is {:.0f} %",
+                          100.0 * goal.tolerance)
             : "stops: " + plan.stopped_because);
 }
 
 std::string scene_plan_as_text(const SceneGoal& goal, const ScenePlan& plan) {
     std::string text = fmt::format("{:>5} {:>10} {:>6} {:>7} {:>8}  {}\n", "round", "directions", "cases",
-                                   "CPU s", "outside", "what the tables leave uncertain");
+                                   "CPU s", "outside", "uncertainty from the tables");
     for (std::size_t i = 0; i < plan.rounds.size(); ++i) {
         const PlanRound& round = plan.rounds[i];
         text +=
@@ -126,7 +127,7 @@ std::string scene_plan_as_text(const SceneGoal& goal, const ScenePlan& plan) {
     }
     const GridCost grid = whole_grid(plan, true);
     text += fmt::format(
-        "stopped, for {}; tolerance {:.3g} % of the descent speed; the whole grid after symmetry: {} "
+        "stopped, as {}; tolerance {:.3g} % of the descent speed; the whole grid after symmetry: {} "
         "directions, about {:.0f} CPU s\n",
         plan.stopped_because, 100.0 * goal.tolerance, grid.directions, grid.cpu_seconds);
     return text;

@@ -109,7 +109,7 @@ def rows_of(path):
     except ValueError as error:
         raise CaseError(f"{path}: is damaged ({error}); ./Allclean starts over") from error
     if any(len(row) != len(rows[0]) for row in rows):
-        raise CaseError(f"{path}: is damaged: its rows are not of one length; ./Allclean starts over")
+        raise CaseError(f"{path}: is damaged: its rows differ in length; ./Allclean starts over")
     return rows
 
 
@@ -143,7 +143,7 @@ def other_version(log):
     builds = re.findall(r"^Build\s*:\s*(.*?)\s*$", read(log), re.MULTILINE)
     if not builds or TESTED_VERSION in builds[-1]:
         return ""
-    return f" (this OpenFOAM says '{builds[-1]}'; the cases are tested with v{TESTED_VERSION})"
+    return f" (this OpenFOAM is '{builds[-1]}'; the cases are tested with v{TESTED_VERSION})"
 
 
 def could_not_read_state(log):

@@ -363,11 +363,11 @@ Surface with_parts_joined(const Surface& surface) {
             const std::string names = parts.names_of_two(group);
             if (!error.empty()) throw Error(fmt::format("{} touch or overlap: {}", names, error));
             labelled(names + " touch or overlap", [&] { require_bounding_surface(surface); });
-            throw Error(fmt::format(
-                "{} touch or overlap so that they cannot be joined, as in an edge or a point alone; "
-                "join them into one solid (in Blender: the Boolean modifier, Union), or move them apart "
-                "by more than {:.2g}",
-                names, tolerance));
+            throw Error(
+                fmt::format("{} touch or overlap in a way that samara cannot join, such as in a single edge "
+                            "or point; join them into one solid (in Blender: the Boolean modifier, Union), "
+                            "or move them apart by more than {:.2g}",
+                            names, tolerance));
         }
         append(result, whole.surface);
         any = true;

@@ -100,10 +100,10 @@ void require_no_contact(const Surface& surface) {
             auto point = pierce_by_sides(tree, t, other);
             if (!point) point = pierce_by_sides(tree, other, t);
             if (point) {
-                throw Error(fmt::format(
-                    "the surface passes through itself: faces {} and {} cross at {}; join the parts into one "
-                    "solid, or where the body is thin use more triangles",
-                    t + 1, other + 1, place(*point)));
+                throw Error(
+                    fmt::format("the surface intersects itself: faces {} and {} cross at {}; join the parts "
+                                "into one solid, or use more triangles if the body is thin",
+                                t + 1, other + 1, place(*point)));
             }
             const auto patch = flush_patch(corners(t), corners(other), tolerance);
             const bool neighbours = share_a_corner(tree.triangles()[t], tree.triangles()[other]);

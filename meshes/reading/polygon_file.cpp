@@ -67,7 +67,7 @@ Surface read_polygon_file(const std::filesystem::path& file, ShapeFormat format)
     std::vector<Polygon> polygons;
     const char* const name = format == ShapeFormat::ply ? "PLY" : "OFF";
     const auto fail = [&](const std::string& reason) {
-        throw Error(fmt::format("{}: is no sound {} file{}{}; export it again, or as .stl", label, name,
+        throw Error(fmt::format("{}: is not a valid {} file{}{}; export it again, or as .stl", label, name,
                                 reason.empty() ? "" : ": ", reason));
     };
     {
@@ -87,13 +87,14 @@ Surface read_polygon_file(const std::filesystem::path& file, ShapeFormat format)
         std::vector<std::int32_t> corners;
         for (const std::size_t corner : polygon) {
             if (corner >= points.size()) {
-                fail(fmt::format("face {} names vertex {} of {}", i + 1, corner + 1, points.size()));
+                fail(fmt::format("face {} uses vertex {}, but there are {}", i + 1, corner + 1,
+                                 points.size()));
             }
             corners.push_back(static_cast<std::int32_t>(corner));
         }
         if (corners.size() > most_obj_corners) {
-            fail(fmt::format("face {} has {} corners, where {} are the most", i + 1, corners.size(),
-                             most_obj_corners));
+            fail(
+                fmt::format("face {} has {} corners, more than {}", i + 1, corners.size(), most_obj_corners));
         }
         if (corners.size() < 3) continue;  // a line or a point
         const auto triangles = polygon_triangles(surface.vertices, corners);

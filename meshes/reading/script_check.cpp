@@ -78,8 +78,8 @@ class Tokens {
 };
 
 [[noreturn]] void reject(const std::string& label, const Token& token, std::string_view what) {
-    throw Error(fmt::format("{}: line {}: {} {}, which a shape may not; delete the statement", label,
-                            token.line, token.text, what));
+    throw Error(fmt::format("{}: line {}: {} {}, which is not allowed in a shape; delete the statement",
+                            label, token.line, token.text, what));
 }
 
 std::string_view rejected_commands(std::string_view word) {

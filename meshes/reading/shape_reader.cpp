@@ -82,11 +82,11 @@ ShapeFormat shape_format(const std::filesystem::path& file) {
         {".body.h5", ShapeFormat::body}};
     const auto found = formats.find(extension_of(file));
     if (found == formats.end()) {
-        throw Error(fmt::format(
-            "{}: is of no known format; give a .geo, .step, .stp, .brep, .stl, .obj, .ply, .off, .glb, "
-            ".gltf, .3mf, .msh or .body.h5 file (Blender opens most other meshes and exports .stl, "
-            "FreeCAD most geometry and exports .step)",
-            file.string()));
+        throw Error(
+            fmt::format("{}: has an unknown format; give a .geo, .step, .stp, .brep, .stl, .obj, .ply, .off, "
+                        ".glb, .gltf, .3mf, .msh or .body.h5 file (Blender opens most other meshes and "
+                        "exports .stl, FreeCAD most geometry and exports .step)",
+                        file.string()));
     }
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(file, unknown);
@@ -106,8 +106,9 @@ void require_beginning(const std::filesystem::path& file, ShapeFormat format) {
     const std::string_view start(block.data(), static_cast<std::size_t>(stream.gcount()));
     const auto require = [&](bool holds, const char* name, const char* beginning) {
         if (holds) return;
-        const std::string what = start.empty() ? "is empty" : fmt::format("is no {} file", name);
-        throw Error(fmt::format("{}: {}: these begin with {}", file.string(), what, beginning));
+        const std::string what = start.empty() ? "is empty" : fmt::format("is not a valid {} file", name);
+        throw Error(fmt::format("{}: {}: a file of this type begins with {}; export it again", file.string(),
+                                what, beginning));
     };
     if (format == ShapeFormat::step) {
         require(start.find("ISO-10303-21") != std::string_view::npos, "STEP", "ISO-10303-21");
@@ -172,7 +173,7 @@ class Reader {
         DWORD code = 0;
         LPCSTR reason = nullptr;
         if (object != nullptr) NMR::lib3mf_getlasterror(object, &code, &reason);
-        throw Error(fmt::format("{}: is no sound 3MF file: {}; export it again, or as .stl", label_,
+        throw Error(fmt::format("{}: is not a valid 3MF file: {}; export it again, or as .stl", label_,
                                 reason == nullptr ? "lib3mf cannot read it" : reason));
     }
 
@@ -188,7 +189,7 @@ Surface read_3mf_file(const std::filesystem::path& file) {
     Surface surface = read_stl(reader.built(), file.string());
     if (surface.corners.empty()) {
         throw Error(
-            fmt::format("{}: builds no object with triangles; export the model again", file.string()));
+            fmt::format("{}: contains no object with triangles; export the model again", file.string()));
     }
     const double unit = reader.unit();
     for (Vector3d& vertex : surface.vertices) vertex *= unit;
@@ -231,7 +232,8 @@ Surface unpacked(std::string_view bytes, const std::string& label) {
     const bool whole = take(bytes, surface.vertices) && take(bytes, surface.corners) &&
                        take(bytes, surface.edge_nodes) && bytes.empty();
     if (!whole || (surface.order() == 2 && surface.edge_nodes.size() != surface.corners.size())) {
-        throw Error(fmt::format("{}: the process that reads it returned a damaged surface", label));
+        throw Error(
+            fmt::format("{}: the reader process returned a damaged surface; export the model again", label));
     }
     labelled(label, [&] { require_usable_numbers(surface); });
     return surface;
@@ -276,7 +278,8 @@ std::vector<Surface> confined_surfaces(
             }
         });
     if (surfaces.size() != count) {
-        throw Error(fmt::format("{}: the process that reads it returned a damaged surface", shape.string()));
+        throw Error(fmt::format("{}: the reader process returned a damaged surface; export the model again",
+                                shape.string()));
     }
     return surfaces;
 }

@@ -233,8 +233,8 @@ MeshedShape mesh_geometry(const std::filesystem::path& file, const MeshOptions& 
     const bool asked = !options.as_many_as_needed || options.sizing == MeshOptions::Sizing::keep;
     if (miss_of(meshed.error) > (asked ? most_missed_where_asked : 1.0)) {
         throw Error(
-            fmt::format("{}: its mesh of {} triangles has another volume by {:.2g} % and another surface by "
-                        "{:.2g} % of its size; use more triangles, such as --triangles {}",
+            fmt::format("{}: its mesh of {} triangles deviates by {:.2g} % in volume and by {:.2g} % of its "
+                        "size in the surface; use more triangles, such as --triangles {}",
                         label, meshed.surface.triangle_count(), 100.0 * meshed.error.volume,
                         100.0 * meshed.error.distance, 4 * meshed.surface.triangle_count()));
     }

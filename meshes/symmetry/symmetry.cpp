@@ -259,7 +259,7 @@ Symmetry find_symmetry(const Surface& surface, const VolumeMoments& moments, dou
 }
 
 std::string describe(const Symmetry& symmetry) {
-    if (symmetry.type == Symmetry::Type::spherical) return "a sphere's: every rotation and reflection";
+    if (symmetry.type == Symmetry::Type::spherical) return "spherical: all rotations and reflections";
     if (symmetry.type == Symmetry::Type::axial) {
         return fmt::format("a body of revolution about ({:.4g}, {:.4g}, {:.4g}){}", symmetry.axis.x(),
                            symmetry.axis.y(), symmetry.axis.z(),

@@ -25,18 +25,18 @@ namespace samara {
 namespace {
 
 constexpr const char* footer =
-    R"(A scene uses one with shape = "samara:NAME"; its tables hold around the Reynolds
-numbers listed, in any fluid. Force: the tables' standard error over the force, root
-mean square over all directions.
+    R"(A scene uses one with shape = "samara:NAME"; its tables are valid near the Reynolds
+numbers listed, in any fluid. Force: the tables' standard error relative to the
+force, root mean square over all directions.
 
 The bodies are in share/samara/bodies beside the program's folder; SAMARA_BODIES names
 another folder of body files.
 
 JSON: folder, not_baked (names), bodies: a list with name, file, hash, samara_version,
-source, shape (its file), extents (m, shortest first), fluid, density (kg/m^3),
-reynolds_numbers, quality, force_error (a share), from_falls (whether its dynamic
-coefficients come from free falls), purpose; null where a body has none.
-With NAME that body alone; with -o also output.
+source, shape (its source file), extents (m, shortest first), fluid, density (kg/m^3),
+reynolds_numbers, quality, force_error (a fraction), from_falls (whether its dynamic
+coefficients were identified from free falls), purpose; null if not available.
+With NAME only that body; with -o also output.
 
 Examples: samara bodies
           samara bodies leaf -o leaf.body.h5)";
@@ -108,7 +108,7 @@ void print_list(const nlohmann::json& result) {
                      text_or_dash(body["purpose"]));
     }
     if (result["bodies"].empty()) {
-        print_result("There are none in {}\n", result["folder"].get<std::string>());
+        print_result("{}: holds no bodies\n", result["folder"].get<std::string>());
         return;
     }
     const nlohmann::json& missing = result["not_baked"];
@@ -154,15 +154,15 @@ nlohmann::json one(const std::string& name, const std::string& output, bool quie
 int bodies_command(int argc, const char* const* argv) {
     std::string name;
     std::string output;
-    Arguments arguments("samara bodies", "The ready-baked bodies that come with samara.");
-    arguments.optional_positional("NAME", name, "one of them: what its file holds");
-    arguments.output_option("-o,--output", output, "NAME.body.h5: copies that body's file there");
+    Arguments arguments("samara bodies", "Lists the ready-baked bodies that are installed with samara.");
+    arguments.optional_positional("NAME", name, "show the content of this body's file");
+    arguments.output_option("-o,--output", output, "NAME.body.h5: copy the body's file to this path");
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] {
         if (arguments.given("--output")) {
             if (name.empty()) throw Error("-o copies one body; name it, as in 'samara bodies leaf -o ...'");
             if (!is_body_file_name(output)) {
-                throw Error(fmt::format("{}: is to be a body file; name it NAME.body.h5", output));
+                throw Error(fmt::format("{}: the output is a body file; name it NAME.body.h5", output));
             }
         }
         return name.empty() ? list(arguments.json()) : one(name, output, arguments.json());

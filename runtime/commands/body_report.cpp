@@ -70,9 +70,8 @@ std::string in_words(const Vector3d& vector) {
 }
 
 std::string in_words(const Symmetry& symmetry) {
-    const std::string group =
-        fmt::format("{} element{}", symmetry.elements.size(),
-                    symmetry.elements.size() == 1 ? " (none beside the identity)" : "s");
+    const std::string group = fmt::format("{} element{}", symmetry.elements.size(),
+                                          symmetry.elements.size() == 1 ? " (only the identity)" : "s");
     switch (symmetry.type) {
         case Symmetry::Type::spherical:
             return "every rotation";
@@ -143,14 +142,14 @@ PressureLoads largest_of(const SurfaceLoads& loads) {
 
 void print_surface_loads(const SurfaceLoads& loads) {
     const auto [force, moment] = largest_of(loads);
-    print_result("Loads of the surface, by its potential flow (docs/explanation/loads-without-a-bake.md)\n");
+    print_result("Surface loads, estimated from potential flow (docs/explanation/loads-without-a-bake.md)\n");
     print_row("force", "up to {:.3g} (rho U^2 A / 2)", force.norm());
     print_row("moment", "up to {:.3g} (rho U^2 A L / 2)", moment.norm());
 }
 
 void print_table_errors(const LoadTables& tables) {
     if (tables.error_sources.empty()) {
-        print_row("standard errors hold", "{}", error_sources_in_words(tables));
+        print_row("standard errors include", "{}", error_sources_in_words(tables));
     } else {
         print_result("  {:<26}{:>10}{:>10}{:>10}{:>10}\n", "standard error (rms) from", "force", "moment",
                      "k", "epsilon");
@@ -271,7 +270,7 @@ nlohmann::json mass_as_json(const Body& body) {
 void print_mass(const Body& body) {
     const MassProperties mass = mass_properties(body, *body.mass);
     const bool is_uniform = body.mass->density.has_value();
-    print_row("mass, where none is said", "{:.6g} kg{}", mass.mass,
+    print_row("default mass", "{:.6g} kg{}", mass.mass,
               is_uniform ? fmt::format(", uniform, {:.6g} kg/m^3", *body.mass->density) : "");
     if (is_uniform) return;
     print_row("  centre of mass", "{} m", in_words(mass.center_of_mass));
@@ -293,13 +292,13 @@ void print_body(const Body& body) {
     if (body.kirchhoff) {
         print_kirchhoff(*body.kirchhoff);
     } else {
-        print_result("No Kirchhoff tensor: 'samara kirchhoff' adds it\n");
+        print_result("No Kirchhoff tensor: 'samara kirchhoff' computes it\n");
     }
     if (body.surface_loads) print_surface_loads(*body.surface_loads);
     if (body.tables) {
         print_tables(*body.tables);
     } else {
-        print_result("No tables: 'samara bake' adds them\n");
+        print_result("No tables: 'samara bake' computes them\n");
     }
     if (body.dynamic) {
         print_dynamic(*body.dynamic);

@@ -37,31 +37,26 @@ void add_digest(const std::filesystem::path& file) {
 int check_command(int argc, const char* const* argv) {
     std::string file;
     bool seal = false;
-    Arguments arguments(
-        "samara check",
-        "Whether a body, motion, wind or surface file from elsewhere is sound: reads all of it in a "
-        "process of its own.");
+    Arguments arguments("samara check", "Validates a body, motion, wind or surface file in a sandbox.");
     arguments.positional("FILE", file, "body file (.body.h5), motion or wind file (.h5), or shape");
-    arguments.flag(
-        "--add-digest", seal,
-        "write a digest of the content behind it, where a body, motion or wind file is sound and has none");
+    arguments.flag("--add-digest", seal,
+                   "append a digest of the content to a valid body, motion or wind file that has none");
     arguments.footer(
-        "Exit status 0: the file is sound. 1: it is rejected, or its reader crashed, took too long or too "
+        "Exit status 0: the file is valid. 1: it is rejected, or its reader crashed, took too long or too "
         "much\n"
-        "memory. JSON: kind (body, motion, wind or surface), digest (whether the file carries one, which is "
-        "right).");
+        "memory. JSON: kind (body, motion, wind or surface), digest (true if the file has a correct one).");
     return run_program(argc, argv, arguments, [&] {
         CheckedFile found = check(file);
         if (seal && found.kind == "surface")
-            throw Error(fmt::format("{}: is a shape, which takes no digest", file));
+            throw Error(fmt::format("{}: a shape cannot have a digest; leave --add-digest out", file));
         if (seal && !found.has_digest) {
             add_digest(file);
             found.has_digest = true;
         }
         if (!arguments.json()) {
-            print_result("{}: a sound {}{}\n", file, found.kind,
+            print_result("{}: a valid {}{}\n", file, found.kind,
                          found.kind == "surface" ? ""
-                         : found.has_digest      ? " file, with the digest of its content"
+                         : found.has_digest      ? " file, with a digest of its content"
                                                  : " file, without a digest (--add-digest writes one)");
         }
         return nlohmann::json{{"kind", found.kind}, {"digest", found.has_digest}};

@@ -18,14 +18,14 @@ namespace samara {
 namespace {
 
 constexpr const char* footer =
-    R"(Falls are chaotic: compared are statistics over a window, each with its standard
-error, the first swing as a path, and of three falls or more where they land. One fall's
-errors come from its swings, those of several runs and copies from their scatter. A
-difference is that to the reference; verdicts are by the tolerances, which are relative
-to it, on what lies beyond what the reference's file says that it is itself uncertain by
-(mesh, closure). 'agrees?' and 'differs?': within that uncertainty and two standard
-errors it may be otherwise. The exit status is 0 whatever the verdict; --json has it as
-"agrees".
+    R"(Falls are chaotic, so the command compares statistics over a window, each with its
+standard error, the path of the first swing and, of three falls or more, where they
+land. The errors of one fall are estimated from its swings, those of several runs and
+copies from their scatter. Each verdict tests the difference from the reference, less
+the reference's own uncertainty (mesh, closure), against a tolerance relative to the
+reference. 'agrees?' and 'differs?': the verdict is uncertain within two standard errors
+and the reference's uncertainty. The exit status is 0 for either verdict; --json reports
+it as "agrees".
 
 Example: samara compare motion.h5 reference.h5 -o comparison.png)";
 
@@ -120,21 +120,20 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
 int compare_command(int argc, const char* const* argv) {
     Request request;
-    Arguments arguments("samara compare", "Holds a motion against a reference, such as a fall by full CFD.");
+    Arguments arguments("samara compare", "Compares a motion with a reference, such as a fall by full CFD.");
     constexpr int most = 1'000'000'000;
     arguments.positional("MOTION", request.motion, "motion file, from 'samara simulate'");
-    arguments.positional("REFERENCE", request.reference, "motion file that it is held against");
-    arguments.output_option(
-        "-o,--output", request.output,
-        "picture to write: .png (2000 x 1300 pixels) or .svg; none where it is not given");
-    arguments.option("--body", request.body,
-                     "the body to compare; by default the only one in each file, or of the same name");
+    arguments.positional("REFERENCE", request.reference, "motion file of the reference");
+    arguments.output_option("-o,--output", request.output,
+                            "picture to write: .png (2000 x 1300 pixels) or .svg; none by default");
+    arguments.option(
+        "--body", request.body,
+        "the body to compare; by default the only one in each file, or the one with the same name");
     arguments.option("--window", request.window,
-                     "BEGIN,END: what is measured, in seconds after the release; by default the last two "
-                     "thirds of the shortest fall in either file");
-    arguments.option("--run", request.run, "the motion's run, counted from 0; all where it is not given", 0,
-                     most);
-    arguments.option("--copy", request.copy, "the motion's copy; all where it is not given", 0, most);
+                     "BEGIN,END: the window of the metrics, in seconds after the release; by default the "
+                     "last two thirds of the shortest fall in either file");
+    arguments.option("--run", request.run, "the motion's run, counted from 0; all by default", 0, most);
+    arguments.option("--copy", request.copy, "the motion's copy; all by default", 0, most);
     arguments.option("--reference-run", request.reference_run, "the reference's run; all by default", 0,
                      most);
     arguments.option("--reference-copy", request.reference_copy, "the reference's copy; all by default", 0,

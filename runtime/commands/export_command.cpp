@@ -27,25 +27,25 @@ namespace {
 
 constexpr const char* footer = R"(Formats, by the ending of OUT:
   .glb   binary glTF 2.0: one mesh for each body, a node for each copy (NAME,
-         NAME.001, ...) with translation and rotation keys; y up, as glTF asks,
-         so that importers for z-up programs restore the scene.
+         NAME.001, ...) with translation and rotation keys; y up, as glTF requires;
+         importers of z-up programs convert back.
   .usda  USD as text: z up, metres, a time code for each frame; one mesh for each
          body, an Xform for each copy; a PointInstancer of more than 100 copies.
-  .chan  Nuke's channels, a file for each copy (OUT_NAME.chan, OUT_NAME.001.chan,
-         ... where there are several): frame tx ty tz rx ry rz, metres and
+  .chan  Nuke's channels, one file for each copy (OUT_NAME.chan,
+         OUT_NAME.001.chan, ...): frame tx ty tz rx ry rz, metres and
          degrees; y up as in .glb, rotation order ZXY (R = Ry Rx Rz).
-  .html  a page that plays the motion in a browser, without a network: all bodies
-         in space, and descent speed, inclination and angular speed under it.
+  .html  a page that plays the motion in a browser, offline: all bodies in 3D, with
+         graphs of descent speed, inclination and angular speed.
   .csv   run,body,copy,time,position_{x,y,z},orientation_{w,x,y,z},
          velocity_{x,y,z},angular_velocity_{x,y,z}; SI units, world axes, z up.
          All runs unless --run is given.
-The files for other tools give the place of the shape file's origin, so that the
-shape file itself can be put there; the velocity in .csv is the velocity of that point.
+All formats give the position of the shape file's origin, so that the shape file
+itself can be placed there; the velocity in .csv is that of this point.
 
 Keys of .glb and samples of .usda that linear interpolation between their
-neighbours reaches are left out: within --tolerance of the position, and within
-the angle that moves the body's farthest point by as much. Not given: 1/500 of
-the body's radius. 0 keeps all.
+neighbours reproduces are left out: to within --tolerance of the position, and
+to within the angle that moves the body's farthest point by as much. By default
+1/500 of the body's radius; 0 keeps all keys.
 
 Example: samara export motion.h5 -o motion.glb --frame-rate 24)";
 
@@ -104,10 +104,8 @@ void note_fast_rotation(const Motion& motion, int run) {
     const FastRotation fastest = fastest_rotation(motion, run);
     if (!(fastest.revolutions > 0.5)) return;
     print_note(
-        "samara export: note: '{}' rotates by up to {:.2g} revolutions from frame to frame; above half a "
-        "revolution "
-        "programs "
-        "that interpolate show another rotation: give --frame-rate {:.0f} or more\n",
+        "samara export: warning: '{}' rotates by up to {:.2g} revolutions from frame to frame; above half a "
+        "revolution interpolation between frames shows a wrong rotation; give --frame-rate {:.0f} or more\n",
         fastest.body, fastest.revolutions, std::ceil(4.0 * fastest.revolutions * motion.frame_rate));
 }
 
@@ -120,8 +118,8 @@ nlohmann::json export_motion(ExportOptions options) {
                         options.output, format));
     }
     if (options.tolerance && format != ".glb" && format != ".usda") {
-        throw Error(fmt::format("{}: --tolerance is for .glb and .usda; other formats have every frame",
-                                options.output));
+        throw Error(
+            fmt::format("{}: --tolerance applies to .glb and .usda only; leave it out", options.output));
     }
     Motion motion = read_motion_file(options.input);
     require_run(options.input, motion, options.run.value_or(0));
@@ -179,10 +177,12 @@ int export_command(int argc, const char* const* argv) {
     arguments.option("--frame-rate", options.frame_rate,
                      "frames per second to write (default: the motion file's)", 1e-3, 1e6);
     arguments.option("--loop", options.loop,
-                     "seconds of a loop: pieces of that length play side by side, as copies", 1e-6, 1e6);
+                     "length of a loop (s): the motion is cut into pieces of this length, which play as "
+                     "copies side by side",
+                     1e-6, 1e6);
     arguments.option("--tolerance", options.tolerance,
-                     "metres that keys of .glb and .usda may be off (default: 1/500 of the radius)", 0.0,
-                     1e6);
+                     "largest position error of the keys of .glb and .usda, m (default: 1/500 of the radius)",
+                     0.0, 1e6);
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] {
         const nlohmann::json result = export_motion(options);

@@ -131,7 +131,7 @@ Vector3d parse_direction(const std::string& text) {
     const std::optional<Vector3d> direction = vector_of_words(text);
     if (direction && direction->norm() > 0.0) return direction->normalized();
     throw Error(
-        fmt::format("--direction: '{}' is no direction; give x,y,z in shape axes, such as 0,0,-1", text));
+        fmt::format("--direction: '{}' is not a direction; give x,y,z in shape axes, such as 0,0,-1", text));
 }
 
 /// Prints and returns the entry of a body's tables in one direction.
@@ -152,23 +152,23 @@ int info_command(int argc, const char* const* argv) {
     std::string direction;
     double reynolds_number = 0.0;
     Arguments arguments("samara info",
-                        "What a body, motion or wind file holds, its units and its provenance.");
+                        "Prints the content of a body, motion or wind file, with units and provenance.");
     arguments.positional("FILE", file, "body file (.body.h5), motion file or wind file (.h5)");
     arguments.option(
         "--direction", direction,
-        "x,y,z: instead, the entry of a body's tables where it moves in this direction (shape axes)");
-    arguments.option("--reynolds-number", reynolds_number, "U L/nu, with --direction; the tables' last", 1e-9,
-                     1e12);
+        "x,y,z: print the entry of a body's tables for motion in this direction (shape axes) instead");
+    arguments.option("--reynolds-number", reynolds_number,
+                     "U L/nu, with --direction; by default the tables' last", 1e-9, 1e12);
     arguments.footer(
         "JSON of a motion: kind, start, duration (s), frames, frame_rate, runs, gravity, seed, scene, bodies "
         "with their\n"
         "measures. Of a body: kind, name, source, triangles, order, volume (m^3), centroid (m), surface_area "
         "(m^2),\n"
-        "principal_extents (m, shortest first), symmetry, kirchhoff and tables (null where there are none).");
+        "principal_extents (m, shortest first), symmetry, kirchhoff and tables (null if there are none).");
     return run_program(argc, argv, arguments, [&] {
         if (!direction.empty()) return report_lookup(file, direction, reynolds_number, arguments.json());
         if (arguments.given("--reynolds-number")) {
-            throw Error("--reynolds-number: belongs to --direction; give both");
+            throw Error("--reynolds-number: needs --direction; give both");
         }
         return report(file, arguments.json());
     });

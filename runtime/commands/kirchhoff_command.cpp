@@ -40,7 +40,7 @@ struct Request {
 
 Vector3d parse_point(const std::string& text) {
     if (const auto point = vector_of_words(text)) return *point;
-    throw Error(fmt::format("--about: '{}' is no point; give x,y,z in metres, such as 0,0,-0.01", text));
+    throw Error(fmt::format("--about: '{}' is not a point; give x,y,z in metres, such as 0,0,-0.01", text));
 }
 
 void print_matrix(const Matrix6d& matrix) {
@@ -94,11 +94,11 @@ Body solved_body(const Request& request) {
         }
     }
     if (!within_tolerance(body, request)) {
-        throw Error(fmt::format("{}: the tolerance {:.2g} is out of reach: {} triangles give {:.2g}; {}",
-                                request.file, request.tolerance, body.kirchhoff->triangles,
-                                body.kirchhoff->error_estimate,
-                                is_shape ? "ask for less, or for more --triangles"
-                                         : "ask for less, or mesh the shape with more triangles"));
+        throw Error(fmt::format(
+            "{}: the tolerance {:.2g} cannot be reached: {} triangles give {:.2g}; {}", request.file,
+            request.tolerance, body.kirchhoff->triangles, body.kirchhoff->error_estimate,
+            is_shape ? "give a larger --tolerance, or more --triangles"
+                     : "give a larger --tolerance, or mesh the shape with more triangles"));
     }
     return body;
 }
@@ -161,21 +161,24 @@ int kirchhoff_command(int argc, const char* const* argv) {
     Request request;
     Arguments arguments(
         "samara kirchhoff",
-        "The added mass of a rigid body in an unbounded ideal fluid: its 6x6 Kirchhoff tensor.");
+        "Computes the added mass of a rigid body in an unbounded ideal fluid: its 6x6 Kirchhoff tensor.");
     arguments.positional("FILE", request.file,
                          "body file (.body.h5), or any shape (.geo .stl .obj .step ...)");
-    arguments.output_option("-o,--output", request.output, "write the body file with the tensor in it");
+    arguments.output_option("-o,--output", request.output, "body file to write, with the tensor");
     arguments.option("--triangles", request.triangles,
-                     "mesh the shape with about this many; 0: samara mesh's choice", 0, 100'000);
+                     "approximate number of triangles to mesh the shape with; 0: the default of samara mesh",
+                     0, 100'000);
     arguments.option("--tolerance", request.tolerance,
-                     "the relative error that will do, such as 1e-3; 0: what the mesh gives", 0.0, 1.0);
-    arguments.option("--threads", request.threads, "0: all cores; the result does not depend on it", 0, 1024);
+                     "relative error that is accepted, such as 1e-3; 0: use the mesh as it is", 0.0, 1.0);
+    arguments.option("--threads", request.threads,
+                     "number of threads, 0: all cores; the result does not depend on it", 0, 1024);
     arguments.option("--about", request.about,
-                     "x,y,z: reference point in metres, shape axes; else the centroid of the volume");
+                     "x,y,z: reference point in metres, shape axes; by default the centroid of the volume");
     arguments.footer(
-        "The tensor is for a fluid of 1 kg/m^3 (multiply by the density), in the axes of the shape file, "
-        "order\n"
-        "angular velocity then velocity. A body file keeps it about the centroid, whatever --about is.\n"
+        "The tensor is for a fluid of 1 kg/m^3 (multiply by the density), in the axes of the shape file; "
+        "angular\n"
+        "velocity comes first, then velocity. A body file stores it about the centroid, whatever --about "
+        "is.\n"
         "JSON: added_mass (6x6; kg m^2, kg m, kg), reference_point and centroid (m), volume (m^3), "
         "triangles,\n"
         "error_estimate and asymmetry (relative), method, seconds (with meshing), output.\n\n"

@@ -28,7 +28,7 @@ struct Request {
 
 Vector3d vector_option(const char* option, const std::string& words, const char* example) {
     if (const auto vector = vector_of_words(words)) return *vector;
-    throw Error(fmt::format("{}: '{}' is no vector; give x,y,z, such as {}", option, words, example));
+    throw Error(fmt::format("{}: '{}' is not a vector; give x,y,z, such as {}", option, words, example));
 }
 
 MassSpecification asked(const Request& request) {
@@ -42,8 +42,8 @@ MassSpecification asked(const Request& request) {
         mass.inertia = vector_option("--inertia", request.inertia, "6.8e-10,1.07e-8,1.12e-8").asDiagonal();
     }
     if (mass.density.has_value() == mass.mass.has_value()) {
-        throw Error(mass.density ? "--density and --mass are both given; give one of the two"
-                                 : "say what the body weighs: --density or --mass");
+        throw Error(mass.density ? "--density and --mass exclude each other; give one of them"
+                                 : "the mass is missing; give --density or --mass");
     }
     if (mass.density && (mass.center_of_mass || mass.inertia)) {
         throw Error(fmt::format("{} contradicts a uniform --density; give --mass instead",
@@ -75,19 +75,18 @@ nlohmann::json run(const Request& request, bool json) {
 int mass_command(int argc, const char* const* argv) {
     Request request;
     Arguments arguments("samara mass",
-                        "Writes into a body file what the body weighs where a scene does not say.");
+                        "Sets the default mass in a body file, for scenes that do not give one.");
     arguments.positional("FILE", request.file, "body file (.body.h5)");
-    arguments.output_option("-o,--output", request.output,
-                            "another body file; else FILE itself is written anew");
-    arguments.option("--density", request.density, "kg/m^3, uniform", 1e-3, 1e6);
-    arguments.option("--mass", request.mass, "kg, in place of a density", 1e-15, 1e15);
+    arguments.output_option("-o,--output", request.output, "body file to write; by default FILE itself");
+    arguments.option("--density", request.density, "uniform density, kg/m^3", 1e-3, 1e6);
+    arguments.option("--mass", request.mass, "mass in kg, instead of a density", 1e-15, 1e15);
     arguments.option("--center-of-mass", request.center_of_mass,
-                     "x,y,z: metres, shape axes; else the centroid of the volume");
+                     "x,y,z: centre of mass in metres, shape axes; by default the centroid of the volume");
     arguments.option("--inertia", request.inertia,
-                     "x,y,z: moments (kg m^2) about the centre of mass, along the shape axes; else as if "
-                     "uniform");
+                     "x,y,z: moments (kg m^2) about the centre of mass, along the shape axes; by default "
+                     "those of uniform density");
     arguments.footer(
-        "A scene's own density or mass goes before it.\n"
+        "A density or mass in a scene takes precedence.\n"
         "JSON: density (null where the mass is given), mass, center_of_mass, inertia (3x3), output.\n\n"
         "Example: samara mass seed.body.h5 --mass 1.42e-4 --center-of-mass 0.0035,-0.0003,0");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments.json()); });

@@ -18,17 +18,18 @@ const BodyMotion& find_body(const std::string& input, const Motion& motion, cons
 
 void require_run(const std::string& input, const Motion& motion, int run) {
     if (run < motion.runs) return;
-    throw Error(motion.runs == 1
-                    ? fmt::format("{}: holds one run, 0; there is no run {}", input, run)
-                    : fmt::format("{}: holds runs 0 to {}; there is no run {}", input, motion.runs - 1, run));
+    throw Error(motion.runs == 1 ? fmt::format("{}: holds only run 0, not run {}; give run 0", input, run)
+                                 : fmt::format("{}: holds runs 0 to {}, not run {}; give one of these", input,
+                                               motion.runs - 1, run));
 }
 
 void require_copy(const std::string& input, const BodyMotion& body, int copy) {
     if (copy < body.copies) return;
-    throw Error(body.copies == 1
-                    ? fmt::format("{}: holds one copy of {}, 0; there is no copy {}", input, body.name, copy)
-                    : fmt::format("{}: holds copies 0 to {} of {}; there is no copy {}", input,
-                                  body.copies - 1, body.name, copy));
+    throw Error(
+        body.copies == 1
+            ? fmt::format("{}: holds only copy 0 of {}, not copy {}; give copy 0", input, body.name, copy)
+            : fmt::format("{}: holds copies 0 to {} of {}, not copy {}; give one of these", input,
+                          body.copies - 1, body.name, copy));
 }
 
 std::optional<Vector3d> vector_of_words(const std::string& words) {

@@ -19,16 +19,16 @@ namespace samara {
 namespace {
 
 constexpr const char* footer =
-    R"(strip: the body's silhouettes along its path at even times, from the front (x, z) and
-from the side (y, z), to scale and coloured by time; of a long fall the last stretch.
-Beside them descent speed, inclination (angle between the shortest principal axis and
-gravity) and angular velocity; shaded: the last two thirds of the fall, over which the
-title's metrics are measured.
-phase: how far the shortest axis leans from the vertical, seen in the plane in which it
-swings most and negative to one side, against its rate, coloured by time; both over time.
-landing: where all copies and runs come down, from above, with the mean and the circle
-of the rms distance; the distributions of the distance and of the time of landing.
-Without a ground: the places at the last frame, and the distances descended.
+    R"(strip: the body's silhouettes along its path at equal intervals, from the front (x, z)
+and from the side (y, z), to scale and coloured by time; for a long fall its last part.
+The graphs show descent speed, inclination (angle between the shortest principal axis
+and gravity) and angular velocity; shaded: the last two thirds of the fall, over which
+the metrics in the title are measured.
+phase: the tilt of the shortest axis from the vertical, in the plane in which it swings
+most and signed, against its rate, coloured by time; and both over time.
+landing: where all copies and runs land, from above, with the mean and the circle of
+the rms distance; the distributions of the distance and of the time of landing.
+Without a ground: the positions at the last frame, and the distances descended.
 polars, of a body file: drag, lift, moment and k against the direction of motion in the
 planes of the principal axes, with their standard errors and the solved cases.
 sphere: drag, moment, k and the force's standard error over all directions.
@@ -104,15 +104,15 @@ nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
     const bool of_body = Hdf5Reader(options.input).has("/surface");
     if (of_body && !arguments.given("--kind")) options.kind = "polars";
     if (of_body != is_body_kind(options.kind)) {
-        throw Error(fmt::format("--kind {}: is of a {}, and {} is a {}", options.kind,
+        throw Error(fmt::format("--kind {}: draws a {}, but {} is a {}", options.kind,
                                 of_body ? "motion" : "body file", options.input,
                                 of_body ? "body file; take polars, sphere or convergence"
                                         : "motion; take strip, phase or landing"));
     }
     for (const char* option : {"--body", "--run", "--copy"}) {
         if (of_body && arguments.given(option)) {
-            throw Error(
-                fmt::format("{}: is of a motion, and {} is a body file; drop it", option, options.input));
+            throw Error(fmt::format("{}: applies to a motion, but {} is a body file; leave it out", option,
+                                    options.input));
         }
     }
     const nlohmann::json picture = picture_of(options, of_body);
@@ -152,8 +152,8 @@ std::string in_words(const nlohmann::json& result) {
 
 int plot_command(int argc, const char* const* argv) {
     Arguments arguments("samara plot",
-                        "Draws one body's motion: silhouettes along its path and its time series, a phase "
-                        "portrait, or a map of its landings; or a body's tables.");
+                        "Draws the motion of one body (silhouettes and time series, a phase portrait or a "
+                        "landing map), or a body's tables.");
     PlotOptions options;
     constexpr int most = 1'000'000'000;
     arguments.positional("FILE", options.input,
@@ -161,15 +161,15 @@ int plot_command(int argc, const char* const* argv) {
     arguments.required_output_option("-o,--output", options.output,
                                      "picture to write: .png (2000 x 1300 pixels) or .svg");
     arguments.choice("--kind", options.kind, {"strip", "phase", "landing", "polars", "sphere", "convergence"},
-                     "what to draw; the last three of a body file, polars by default");
-    arguments.option("--body", options.body, "the body to draw; the first where it is not given");
+                     "what to draw; polars, sphere and convergence draw a body file (default: polars)");
+    arguments.option("--body", options.body, "the body to draw; the first by default");
     arguments.option("--run", options.run, "the run to draw, counted from 0", 0, most);
     arguments.option("--copy", options.copy, "the copy to draw, counted from 0", 0, most);
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] {
         for (const char* option : {"--run", "--copy"}) {
             if (options.kind == "landing" && arguments.given(option)) {
-                throw Error(fmt::format("{}: a landing map is of all runs and copies; drop it", option));
+                throw Error(fmt::format("{}: a landing map shows all runs and copies; leave it out", option));
             }
         }
         nlohmann::json result = plot(options, arguments);

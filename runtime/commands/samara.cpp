@@ -30,24 +30,23 @@ constexpr Command commands[] = {
     {"mesh", "shape file -> checked surface, volume moments, symmetry", nullptr},
     {"kirchhoff", "body or shape -> added mass (Kirchhoff tensor) in an unbounded fluid",
      samara::kirchhoff_command},
-    {"mass", "what a body weighs where a scene does not say, into its file", samara::mass_command},
-    {"plan", "scene -> the cases that it needs, and their cost", nullptr},
+    {"mass", "sets the default mass in a body file", samara::mass_command},
+    {"plan", "scene -> the CFD cases it needs, and their cost", nullptr},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},
     {"identify", "solved free falls -> dynamic coefficients in the body file", nullptr},
-    {"check-tables", "tables against solved cases that they were not made from", nullptr},
+    {"check-tables", "compares tables with held-out solved cases", nullptr},
     {"wind", "velocity grids of OpenVDB -> wind file, for a scene's [wind.file]", nullptr},
-    {"bodies", "the ready-baked bodies that come with it", samara::bodies_command},
+    {"bodies", "lists the ready-baked bodies", samara::bodies_command},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
-    {"search", "scene -> the seeds with which a body lands in a target or passes a ring",
-     samara::search_command},
+    {"search", "scene -> seeds with which a body hits a target or passes a ring", samara::search_command},
     {"export", "motion -> .glb, .usda, .chan for animation tools, .html, .csv", samara::export_command},
     {"plot", "motion or body -> picture: silhouettes, time series; polars, maps", samara::plot_command},
-    {"compare", "motion held against another, such as a fall by full CFD", samara::compare_command},
-    {"validate", "scene -> the same motion by full CFD, to hold the runtime against", nullptr},
-    {"report", "bake -> page that says what it is good for, and why", samara::report_command},
-    {"info", "what a file holds, its units and its provenance", samara::info_command},
-    {"check", "a file from elsewhere, read in a process of its own: is it sound", samara::check_command},
+    {"compare", "compares a motion with a reference, such as a fall by full CFD", samara::compare_command},
+    {"validate", "scene -> reference motion by full CFD", nullptr},
+    {"report", "bake -> HTML page that judges its accuracy", samara::report_command},
+    {"info", "prints a file's content, units and provenance", samara::info_command},
+    {"check", "validates a file in a sandbox", samara::check_command},
 };
 
 bool is_installed(const Command& command) {
@@ -62,7 +61,7 @@ bool has_fuller_program(const Command& command) {
 void print_help() {
     samara::print_result(
         "samara: rigid bodies that fall, flutter and tumble through water or air\n\n"
-        "Usage: samara COMMAND [options]; 'samara COMMAND --help' tells more\n\n");
+        "Usage: samara COMMAND [options]; 'samara COMMAND --help' prints the options of a command\n\n");
     for (const Command& command : commands) {
         samara::print_result("  {:<13}{}{}\n", command.name, command.does,
                              is_installed(command) ? "" : " (not installed)");
@@ -82,16 +81,16 @@ void run_other_program(const std::string& name, char** argv) {
     if (!program) {
         for (const Command& command : commands) {
             if (command.name != name) continue;
-            throw samara::Error(fmt::format(
-                "the program samara-{} is not installed; it belongs to the baking tools (build with "
-                "SAMARA_BAKING=ON)",
-                name));
+            throw samara::Error(
+                fmt::format("the program samara-{} is not installed; install the package samara-baking, or "
+                            "build with SAMARA_BAKING=ON",
+                            name));
         }
         std::vector<std::string> names;
         for (const Command& command : commands) names.emplace_back(command.name);
         const std::string meant = samara::did_you_mean(name, names);
         throw samara::Error(
-            fmt::format("there is no command '{}'{}", name, meant.empty() ? "; see 'samara --help'" : meant));
+            fmt::format("unknown command '{}'{}", name, meant.empty() ? "; see 'samara --help'" : meant));
     }
     ::execv(program->c_str(), argv + 1);
     throw samara::Error(fmt::format("{}: cannot be started: {}", program->string(), std::strerror(errno)));

@@ -52,15 +52,15 @@ std::vector<double> numbers_of(const std::string& option, const std::string& wor
         if (after != end && at == end) break;  // a comma at the end
     }
     if (at != end || numbers.size() != count || words.ends_with(',')) {
-        throw Error(fmt::format("{} must be {} in metres, {} numbers between commas, not '{}'", option, form,
-                                count, words));
+        throw Error(fmt::format("{} must be {} in metres, {} numbers separated by commas, not '{}'", option,
+                                form, count, words));
     }
     return numbers;
 }
 
 Target target_of(const Request& request) {
     if (request.target.empty() == request.ring.empty()) {
-        throw Error("give one of --target x,y,z,radius and --ring x,y,z,nx,ny,nz,radius");
+        throw Error("give either --target x,y,z,radius or --ring x,y,z,nx,ny,nz,radius");
     }
     Target target;
     const bool is_ring = !request.ring.empty();
@@ -69,7 +69,7 @@ Target target_of(const Request& request) {
                                             : numbers_of("--target", request.target, 4, "x,y,z,radius");
     target.middle = Vector3d(numbers.data());
     target.radius = numbers.back();
-    if (!(target.radius > 0.0)) throw Error(fmt::format("the radius {} is not above 0", target.radius));
+    if (!(target.radius > 0.0)) throw Error(fmt::format("the radius {} must be above 0", target.radius));
     if (!is_ring) return target;
     const Vector3d normal(&numbers[3]);
     if (!(normal.norm() > 0.0)) throw Error("--ring needs a normal nx,ny,nz that is not zero");
@@ -111,9 +111,8 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     Scene& scene = prepared.scene;
     if (request.tries > 1 && !depends_on_seed(scene, body)) {
         throw Error(fmt::format(
-            "{}: nothing of the fall of '{}' is drawn from the seed, so that all seeds give the same; give "
-            "the body a count with a spread, an emitter or turbulence, or the wind gusts without a seed, or "
-            "fly it with 'samara simulate'",
+            "{}: the fall of '{}' does not depend on the seed; give the body a count with a spread, an "
+            "emitter or turbulence, or the wind gusts without a seed, or run 'samara simulate'",
             request.scene, scene.bodies[body].name));
     }
     std::vector<TargetMiss> misses;
@@ -142,12 +141,13 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     if (reached == 0) {
         throw Error(fmt::format(
             "{}: none of {} tries reaches the target of radius {:g} m: the nearest, seed {}, stays {:.4g} m "
-            "from its middle; give more --tries, a larger radius, or the scene a wider spread",
+            "from its centre; give more --tries, a larger radius, or the scene a wider spread",
             request.scene, request.tries, target.radius, best.seed, best.distance));
     }
     if (!arguments.json()) {
-        print_result("{} of {} tries reach the target; fly the best with 'samara simulate {} --seed {}'\n",
-                     reached, request.tries, request.scene, best.seed);
+        print_result(
+            "{} of {} tries reach the target; simulate the best with 'samara simulate {} --seed {}'\n",
+            reached, request.tries, request.scene, best.seed);
     }
     if (!request.output.empty()) {
         scene.seed = best.seed;
@@ -160,27 +160,29 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 
 int search_command(int argc, const char* const* argv) {
     Request request;
-    Arguments arguments(program, "Looks for the seeds with which a body lands in a target or passes a ring.");
-    arguments.positional("SCENE", request.scene, "scene file (.toml; docs/reference/scene-file.md lists its keys)");
+    Arguments arguments(program, "Searches for seeds with which a body reaches a target or passes a ring.");
+    arguments.positional("SCENE", request.scene,
+                         "scene file (.toml; docs/reference/scene-file.md lists its keys)");
     arguments.option("--target", request.target,
-                     "x,y,z,radius (m): a ball in which the body is to be when the scene ends");
+                     "x,y,z,radius (m): a sphere that contains the body when the scene ends");
     arguments.option("--ring", request.ring,
-                     "x,y,z,nx,ny,nz,radius (m): a ring with this normal that it is to pass through");
-    arguments.option("--body", request.body, "which body; needed where the scene has several");
-    arguments.option("--tries", request.tries, "seeds to try, the scene's and those after it", 1, 10'000'000);
-    arguments.option("--seed", request.seed, "first seed, instead of the scene's");
+                     "x,y,z,nx,ny,nz,radius (m): a ring with this normal that the body passes through");
+    arguments.option("--body", request.body, "the body; required if the scene has several");
+    arguments.option("--tries", request.tries, "number of seeds to try, counted up from the first", 1,
+                     10'000'000);
+    arguments.option("--seed", request.seed, "first seed; by default the scene's");
     arguments.output_option("-o,--output", request.output, "motion file (.h5) of the best try");
-    arguments.option("--bodies", request.bodies, "folder of baked bodies, NAME.body.h5 for each body");
+    arguments.option("--bodies", request.bodies,
+                     "folder of baked bodies, NAME.body.h5 for each body of the scene");
     arguments.option("--threads", request.threads,
-                     "threads, 0: all cores; the result is the same for any number", 0, 4096);
+                     "number of threads, 0: all cores; the result does not depend on it", 0, 4096);
     arguments.footer(
-        "A seed draws the noise and, of bodies with a count above 1, starts, sizes and release times; of "
-        "any\n"
-        "with an emitter the point; and gusts of the wind without a seed. Where nothing is drawn, all seeds\n"
-        "give the same, and the search is rejected. The copy that comes nearest counts. --json: body, "
-        "reached "
-        "(how many), "
-        "tries\n(seed, copy, distance, time, reached; the nearest first).\n");
+        "The seed determines the noise; the starts, sizes and release times of bodies with a count above 1;\n"
+        "the points of an emitter; and the wind's gusts that have no seed of their own. A scene that does "
+        "not\n"
+        "depend on the seed is rejected. The copy that comes nearest counts. --json: body, reached (how "
+        "many),\n"
+        "tries (seed, copy, distance, time, reached; the nearest first).\n");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments); });
 }
 

@@ -76,7 +76,7 @@ class NotedInterrupts {
 };
 
 void note(const std::string& text) {
-    print_note("{}: note: {}\n", program, text);
+    print_note("{}: warning: {}\n", program, text);
 }
 
 /// Notes before the simulation which values of the bodies make the motion uncertain.
@@ -92,16 +92,16 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
                   is_body_file_name(body.shape) ? "" : shape_warning(*loaded[i].body));
         if (body.loads == Loads::surface && body.loads_by_default) {
             notes.add("surface", body.name, 0.0,
-                      "has no tables, and flies by the pressure that potential flow tells of its surface "
-                      "(docs/explanation/loads-without-a-bake.md); 'samara bake' makes tables");
+                      "has no tables; its loads are estimated from potential flow "
+                      "(docs/explanation/loads-without-a-bake.md); 'samara bake' computes tables");
         }
         const DensityWarning density = density_warning(body, *loaded[i].body, scene.fluid);
         notes.add("density", body.name, density.ratio, density.text);
         const double error = body.added_mass ? loaded[i].body->kirchhoff->error_estimate : 0.0;
         if (error <= doubtful) continue;
         notes.add("added mass", body.name, error,
-                  fmt::format("the added mass may be wrong by {:.0f} % (error estimate): the body is thin or "
-                              "its mesh coarse",
+                  fmt::format("the added mass may be off by {:.0f} % (error estimate): the body is thin or "
+                              "its mesh is coarse",
                               100.0 * error));
     }
     notes.print();
@@ -117,25 +117,24 @@ void note_reynolds_numbers(BodyNotes& notes, const SceneBody& scene_body, const 
     // A table of one Reynolds number is made for the terminal speed: swings around it are expected.
     if (report.highest_reynolds_number > 2.0 * highest) {
         notes.add("above the table", scene_body.name, report.highest_reynolds_number / highest,
-                  fmt::format("reached the Reynolds number {:.3g}, its table ends at {:.3g}: its last values "
-                              "were held",
+                  fmt::format("reached the Reynolds number {:.3g}, but its table ends at {:.3g}: the table's "
+                              "last values were used",
                               report.highest_reynolds_number, highest));
     }
     const double share = report.share_below_table();
     if (scene_body.loads == Loads::table && share > 0.5) {
         notes.add("below the table", scene_body.name, share,
                   fmt::format("moved below half its table's lowest Reynolds number, {:.3g}, for {:.0f} % of "
-                              "its flight: there Stokes resistance is added to the table's first values",
+                              "the time: there Stokes drag is added to the table's first values",
                               lowest, 100.0 * share));
     }
 }
 
 void warn_of_substeps(const SimulationReport& report) {
     if (report.steps_at_limit == 0) return;
-    note(
-        fmt::format("in {} of {} steps a body turned so fast that {} substeps were too few for 0.3 rad "
-                    "each; use a smaller step",
-                    report.steps_at_limit, report.steps, most_substeps));
+    note(fmt::format(
+        "in {} of {} steps a body rotated by more than 0.3 rad in each of {} substeps; use a smaller step",
+        report.steps_at_limit, report.steps, most_substeps));
 }
 
 PreparedScene prepare_with_progress(Scene scene, const Preparation& preparation) {
@@ -170,7 +169,7 @@ SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& loaded, 
         writer.finish(report.frames);
     });
     if (report.interrupted) {
-        throw Error(fmt::format("interrupted at {:g} of {:g} s: {} holds the {} frames until then",
+        throw Error(fmt::format("interrupted at {:g} of {:g} s: {} holds the first {} frames",
                                 simulation.motion().times[report.frames - 1],
                                 simulation.motion().times.back(), output, report.frames));
     }
@@ -268,23 +267,26 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
 int simulate_command(int argc, const char* const* argv) {
     Request request;
     Arguments arguments(program, "Simulates a scene and writes the motion of its bodies.");
-    arguments.positional("SCENE", request.scene, "scene file (.toml; docs/reference/scene-file.md lists its keys)");
+    arguments.positional("SCENE", request.scene,
+                         "scene file (.toml; docs/reference/scene-file.md lists its keys)");
     arguments.required_output_option("-o,--output", request.output, "motion file to write (.h5)");
     arguments.option(
         "--bodies", request.bodies,
         "folder of baked bodies, NAME.body.h5 for each body of the scene ('samara bake SCENE -o DIR')");
-    arguments.option("--seed", request.seed, "seed of the noise, instead of the scene's");
-    arguments.option("--step", request.step, "time step (s), instead of the scene's", 1e-9, 1e3);
-    arguments.option("--runs", request.runs, "runs that differ by their noise alone", 1, 1'000'000);
+    arguments.option("--seed", request.seed, "seed of the noise; by default the scene's");
+    arguments.option("--step", request.step, "time step (s); by default the scene's", 1e-9, 1e3);
+    arguments.option("--runs", request.runs, "number of runs, which differ only in their noise", 1,
+                     1'000'000);
     arguments.option("--threads", request.threads,
-                     "threads, 0: all cores; the motion is the same for any number", 0, 4096);
+                     "number of threads, 0: all cores; the result does not depend on it", 0, 4096);
     arguments.footer(
         "--json: bodies (a list with name, mean_velocity, mean_descent_speed, final_position, regime, and "
         "the\n"
-        "metrics of the ensemble of copies and runs: docs/reference/output.md), steps, seconds, nanoseconds_per_step.\n"
+        "metrics of the ensemble of copies and runs: docs/reference/output.md), steps, seconds, "
+        "nanoseconds_per_step.\n"
         "Speeds in m/s over the last two thirds of the fall, angles in radians. An interrupt (Ctrl-C) "
-        "leaves\n"
-        "the frames flown so far as a motion file.\n");
+        "writes\n"
+        "the frames simulated so far as a motion file.\n");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments); });
 }
 

@@ -35,13 +35,13 @@ std::string error_sources_in_words(const LoadTables& tables) {
 
 std::string table_errors_as_text(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors) {
     if (!used_tables(tables, errors)) return {};
-    std::string text = "  the tables' standard error along the flight:";
+    std::string text = "  standard error of the tables along the motion:";
     if (errors.forces > 0) text += fmt::format(" {} of the force", per_cent(errors.mean_force()));
     if (errors.forces > 0 && errors.turbulent_kinetic_energies > 0) text += ",";
     if (errors.turbulent_kinetic_energies > 0) {
         text += fmt::format(" {} of k", per_cent(errors.mean_turbulent_kinetic_energy()));
     }
-    text += fmt::format("\n  it holds: {}\n", error_sources_in_words(*tables));
+    text += fmt::format("\n  includes: {}\n", error_sources_in_words(*tables));
     if (const std::size_t left_out = left_out_cases(*tables).size(); left_out > 0) {
         text += fmt::format("  {} of the tables' cases could not be solved ('samara info' names them)\n",
                             left_out);
@@ -76,16 +76,15 @@ void note_table_errors(BodyNotes& notes, const std::string& body, const TableErr
     note_quantity("k", errors.mean_turbulent_kinetic_energy());
     if (!quantities.empty()) {
         notes.add("tables", body, worst,
-                  fmt::format("the tables are uncertain by {} along the flight (standard error); bake with a "
+                  fmt::format("the tables are uncertain by {} along the motion (standard error); bake with a "
                               "higher quality",
                               fmt::join(quantities, " and ")));
     }
     if (errors.share_strayed() > worth_a_note) {
-        notes.add(
-            "strayed", body, errors.share_strayed(),
-            fmt::format("moved for {:.0f} % of the flight in directions that the bake was not planned for: "
-                        "there its tables are extrapolated; bake this scene, or bake with --whole-grid",
-                        100.0 * errors.share_strayed()));
+        notes.add("strayed", body, errors.share_strayed(),
+                  fmt::format("moved for {:.0f} % of the time in directions that the bake did not cover, "
+                              "where its tables are extrapolated; bake this scene, or bake with --whole-grid",
+                              100.0 * errors.share_strayed()));
     }
 }
 

@@ -67,7 +67,8 @@ void require_whole_frames(const std::filesystem::path& file, const Motion& motio
         const double frame = time * motion.frame_rate;
         if (std::abs(frame - std::round(frame)) > 1e-3) {
             throw Error(
-                fmt::format("{}: .chan has whole frames, but the motion has one at {} s, {} frames of 1/{} s",
+                fmt::format("{}: .chan needs whole frames, but the motion has one at {} s, which is {} "
+                            "frames of 1/{} s; choose another --frame-rate",
                             file.string(), time, frame, motion.frame_rate));
         }
     }

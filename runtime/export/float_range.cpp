@@ -22,7 +22,7 @@ double reach_of(const std::vector<Vector3d>& vectors) {
 void require(bool holds, const std::filesystem::path& file, const std::string& name, const char* what) {
     if (holds) return;
     throw Error(
-        fmt::format("{}: {} of '{}' lie beyond {:g}, and animation tools hold floats; is a unit wrong?",
+        fmt::format("{}: {} of '{}' exceed {:g}, the range of floats in animation tools; check the units",
                     file.string(), what, name, farthest));
 }
 

@@ -248,8 +248,9 @@ std::vector<float> checked_times(const Motion& motion, const std::filesystem::pa
     std::vector<float> times;
     append(times, motion.times);
     if (times.front() < 0.0F) {
-        throw Error(fmt::format("{}: glTF has no times before 0, but the motion starts at {} s",
-                                file.string(), motion.times.front()));
+        throw Error(fmt::format(
+            "{}: glTF has no times before 0, but the motion starts at {} s; choose another format",
+            file.string(), motion.times.front()));
     }
     if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end()) {
         throw Error(
@@ -364,10 +365,9 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     }
     if (moves) model.animations.push_back(animation);
     if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() / 2) {
-        throw Error(
-            fmt::format("{}: would exceed the 2 GB that animation tools read; use a lower frame rate "
-                        "or fewer copies",
-                        file.string()));
+        throw Error(fmt::format(
+            "{}: would exceed the limit of 2 GB for animation tools; use a lower frame rate or fewer copies",
+            file.string()));
     }
     replace_file_by_stream(file, [&](std::ostream& stream) {
         tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);

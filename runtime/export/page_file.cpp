@@ -147,7 +147,7 @@ void require_size(const std::filesystem::path& file, const Motion& motion) {
     const double bytes = poses * floats_of_pose * sizeof(float) * 4.0 / 3.0;
     if (bytes > most_bytes) {
         throw Error(
-            fmt::format("{}: the poses would take {:.0f} MB, and browsers read {:.0f}; give a lower "
+            fmt::format("{}: the poses need {:.0f} MB, but the limit of browsers is {:.0f}; give a lower "
                         "--frame-rate, or simulate fewer copies",
                         file.string(), 1e-6 * bytes, 1e-6 * most_bytes));
     }
@@ -165,8 +165,8 @@ void write_page(const std::filesystem::path& file, const Motion& motion, int run
     const std::size_t place = page.find(mark);
     if (place == std::string_view::npos) {
         throw Error(
-            fmt::format("{}: this samara was built without the page; configure it with "
-                        "-DSAMARA_PAGE=ON where npm is, or write .glb",
+            fmt::format("{}: this samara was built without the page; configure it with -DSAMARA_PAGE=ON and "
+                        "npm, or write .glb",
                         file.string()));
     }
     require_size(file, motion);

@@ -113,8 +113,8 @@ class GlbReader {
             std::replace(error.begin(), error.end(), '\n', ' ');
             const std::string type = is_text ? ".gltf" : ".glb";
             fail(error.empty()
-                     ? fmt::format("is no {} file", type)
-                     : fmt::format("is no sound {} file: {}; export it again as .glb", type, error));
+                     ? fmt::format("is not a valid {} file", type)
+                     : fmt::format("is not a valid {} file: {}; export it again as .glb", type, error));
         }
     }
 
@@ -122,7 +122,7 @@ class GlbReader {
         for (const std::string& extension : model_.extensionsRequired) {
             if (extension.starts_with("KHR_draco") || extension.starts_with("EXT_meshopt") ||
                 extension == "KHR_mesh_quantization") {
-                fail(fmt::format("its meshes are compressed ({}); export it without", extension));
+                fail(fmt::format("its meshes are compressed ({}); export it without compression", extension));
             }
         }
         for (const tinygltf::Material& material : model_.materials) {
@@ -136,9 +136,9 @@ class GlbReader {
             if (material.alphaMode == "MASK") slot.transparency = DisplayTransparency::cut_out;
             if (material.alphaMode == "BLEND") slot.transparency = DisplayTransparency::blended;
         }
-        if (model_.scenes.empty()) fail("shows no scene");
+        if (model_.scenes.empty()) fail("has no scene");
         const std::size_t shown = model_.defaultScene < 0 ? 0 : static_cast<std::size_t>(model_.defaultScene);
-        if (shown >= model_.scenes.size()) fail("shows a scene that is not there");
+        if (shown >= model_.scenes.size()) fail("refers to a scene that is missing");
         for (const int node : model_.scenes[shown].nodes) add_node(node, Eigen::Affine3d::Identity(), 0);
         if (!has_normals_) display_.normals.clear();
         if (!has_texture_) display_.texture.clear();
@@ -167,7 +167,7 @@ class GlbReader {
     template <typename Part>
     const Part& at(const std::vector<Part>& parts, int index, const char* what) const {
         if (index < 0 || static_cast<std::size_t>(index) >= parts.size()) {
-            fail(fmt::format("names a {} that is not there", what));
+            fail(fmt::format("refers to a {} that is missing", what));
         }
         return parts[static_cast<std::size_t>(index)];
     }
@@ -195,14 +195,14 @@ class GlbReader {
         const tinygltf::BufferView& view = at(model_.bufferViews, image.bufferView, "view of its bytes");
         const std::vector<unsigned char>& bytes = at(model_.buffers, view.buffer, "buffer").data;
         if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
-            fail("is cut short");
+            fail("is truncated");
         }
         return {reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength};
     }
 
     void add_node(int index, const Eigen::Affine3d& parent, std::size_t depth) {
-        if (depth > most_nodes_deep) fail("its nodes stand too deep in each other, or in a circle");
-        if (++placed_ > most_placed) fail("places its nodes more than a million times");
+        if (depth > most_nodes_deep) fail("its nodes are nested too deeply, or in a cycle");
+        if (++placed_ > most_placed) fail("has more than a million instances of nodes");
         const tinygltf::Node& node = at(model_.nodes, index, "node");
         Eigen::Affine3d place = Eigen::Affine3d::Identity();
         if (node.matrix.size() == 16) {
@@ -216,7 +216,7 @@ class GlbReader {
             if (node.scale.size() == 3) place.scale(Vector3d(node.scale.data()));
         }
         const Eigen::Affine3d here = parent * place;
-        if (!here.matrix().allFinite()) fail("places a node by what are no numbers");
+        if (!here.matrix().allFinite()) fail("has a node transform with invalid numbers");
         if (node.mesh >= 0) {
             for (const tinygltf::Primitive& part : at(model_.meshes, node.mesh, "mesh").primitives) {
                 add_part(part, here);
@@ -229,7 +229,7 @@ class GlbReader {
     template <typename Take>
     void visit(const tinygltf::Accessor& accessor, int type, int component, const Take& take) const {
         if (accessor.type != type || accessor.componentType != component || accessor.sparse.isSparse) {
-            fail("holds a mesh in numbers that are not read; export it anew");
+            fail("has a mesh with an unsupported number type; export it again");
         }
         const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "view of its bytes");
         const std::vector<unsigned char>& bytes = at(model_.buffers, view.buffer, "buffer").data;
@@ -242,7 +242,7 @@ class GlbReader {
         if (accessor.count == 0) return;
         if (stride > 4096 || first > bytes.size() || accessor.count > bytes.size() ||
             first + (accessor.count - 1) * stride + size > bytes.size()) {
-            fail("is cut short");
+            fail("is truncated");
         }
         for (std::size_t i = 0; i < accessor.count; ++i) take(&bytes[first + i * stride]);
     }
@@ -255,7 +255,7 @@ class GlbReader {
             std::memcpy(&values[old], bytes, components * sizeof(float));
         });
         for (const float value : values) {
-            if (!std::isfinite(value)) fail("holds what is no number");
+            if (!std::isfinite(value)) fail("has an invalid number");
         }
         return values;
     }
@@ -274,7 +274,7 @@ class GlbReader {
             take_as(std::uint16_t{});
         } else {
             if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-                fail("counts by what is no number");
+                fail("has an index of an invalid type");
             take_as(std::uint32_t{});
         }
         return values;
@@ -336,7 +336,7 @@ class GlbReader {
         for (std::size_t i = 0; i < corners.size(); i += 3) {
             std::array<std::int32_t, 3> triangle{};
             for (std::size_t k = 0; k < 3; ++k) {
-                if (first + corners[i + k] >= end) fail("has a triangle with a corner that is not there");
+                if (first + corners[i + k] >= end) fail("has a triangle with a corner that is missing");
                 triangle[k] = static_cast<std::int32_t>(first + corners[i + k]);
             }
             if (mirrored) std::swap(triangle[1], triangle[2]);
@@ -384,7 +384,7 @@ DisplayMesh read_display_mesh_file(const std::filesystem::path& file) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     if (extension != ".obj" && extension != ".glb") {
-        throw Error(fmt::format("{}: a look is a mesh, .obj or .glb", file.string()));
+        throw Error(fmt::format("{}: a look must be a mesh, .obj or .glb", file.string()));
     }
     DisplayMesh display = extension == ".obj" ? read_obj_display_mesh(file) : read_glb_file(file);
     if (display.corners.empty()) throw Error(fmt::format("{}: holds no triangles", file.string()));

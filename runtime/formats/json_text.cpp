@@ -12,7 +12,7 @@ nlohmann::json parse_json(std::string_view text) {
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& reason) {
-        throw Error(fmt::format("is no JSON ({})", reason.what()));
+        throw Error(fmt::format("is not valid JSON ({})", reason.what()));
     }
 }
 

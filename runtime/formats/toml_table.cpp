@@ -59,8 +59,8 @@ void require_short_keys(std::string_view text, const std::string& file) {
         if (letter == '.' && ++parts > most_parts) {
             const auto line =
                 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-            throw Error(fmt::format("{}:{}: a key has more than {} parts joined by dots; which one is meant?",
-                                    file, line, most_parts));
+            throw Error(fmt::format("{}:{}: a key has more than {} parts joined by dots; shorten it", file,
+                                    line, most_parts));
         }
         ++at;
     }
@@ -142,7 +142,7 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
 std::optional<std::string> TomlTable::text(std::string_view key) {
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;
-    if (!found->is_string()) throw error(key, "must be a text in quotes");
+    if (!found->is_string()) throw error(key, "must be a string in quotes");
     return found->value<std::string>();
 }
 

@@ -214,10 +214,10 @@ class Solver {
                                                 ? solve_curved_collocation(surface, options)
                                                 : solve_hypersingular(without_edge_nodes(surface), options);
         if (found.closure_error > most_closure_error) {
-            throw OverlapError(fmt::format(
-                "the surface overlaps or touches itself: its solid angle is off by {:.1g}; join what "
-                "touches into one solid, or mesh a thin part with more triangles",
-                found.closure_error));
+            throw OverlapError(
+                fmt::format("the surface overlaps or touches itself: its solid angle is off by {:.1g}; join "
+                            "touching parts into one solid, or mesh thin parts with more triangles",
+                            found.closure_error));
         }
         Vector6d powers;
         powers << Vector3d::Constant(length_), Vector3d::Ones();

@@ -20,7 +20,7 @@ std::string type_of(const std::filesystem::path& file) {
     if (reader.has("/surface")) return "body";
     if (reader.has("/bodies")) return "motion";
     if (reader.has("/wind")) return "wind";
-    throw Error(fmt::format("{}: is an HDF5 file, but neither a body nor a motion nor a wind of samara's",
+    throw Error(fmt::format("{}: is an HDF5 file, but not a body, motion or wind file; give one of these",
                             file.string()));
 }
 
@@ -46,7 +46,7 @@ CheckedFile check(const InputFile& input, bool poses) {
     const std::filesystem::path& file = input.path();
     const std::string type = check_confined(input, [&] { return read_through(file, poses); });
     if (type != "body" && type != "motion" && type != "wind") {
-        throw Error(fmt::format("{}: its reader was led astray; do not use it", file.string()));
+        throw Error(fmt::format("{}: its reader returned an invalid answer; do not use it", file.string()));
     }
     return {type, has_digest(input)};
 }

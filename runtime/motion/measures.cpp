@@ -111,8 +111,9 @@ Track track_in(const Motion& motion, const BodyMotion& body, int run, int copy, 
     const double slack = 1e-9 * std::max(1.0, std::abs(window.end));
     if (!(window.begin <= window.end) || window.end < times.front() - slack ||
         window.begin > times.back() + slack) {
-        throw Error(fmt::format("the window from {} s to {} s holds no part of the motion from {} s to {} s",
-                                window.begin, window.end, times.front(), times.back()));
+        throw Error(fmt::format(
+            "the window from {} s to {} s is outside the motion from {} s to {} s; give another window",
+            window.begin, window.end, times.front(), times.back()));
     }
     auto first = std::lower_bound(times.begin(), times.end(), window.begin - slack);
     auto last = std::upper_bound(first, times.end(), window.end + slack);

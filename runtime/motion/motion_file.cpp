@@ -23,10 +23,10 @@ std::vector<hsize_t> pose_dimensions(const Hdf5Reader& file, const std::string& 
     constexpr hsize_t most = std::numeric_limits<std::int32_t>::max();
     if (shape.size() != 4 || shape[0] < 1 || shape[0] > most || shape[1] != frames || shape[2] < 1 ||
         shape[2] > most || shape[3] != 3) {
-        throw Error(fmt::format(
-            "{}: {} has not the shape (runs, {} frames, copies, 3); the file is of another kind or was "
-            "changed: simulate the scene again",
-            file.path().string(), name, frames));
+        throw Error(
+            fmt::format("{}: {} does not have the shape (runs, {} frames, copies, 3): the file has another "
+                        "type or was changed; simulate the scene again",
+                        file.path().string(), name, frames));
     }
     return shape;
 }
@@ -78,10 +78,9 @@ void read_bodies_but_poses(const Hdf5Reader& file, Motion& motion) {
         int runs = 0;
         BodyMotion body = read_body_but_poses(file, name, motion.times.size(), runs);
         if (!bodies.empty() && runs != motion.runs) {
-            throw Error(
-                fmt::format("{}: /bodies/{} has {} runs, the bodies before it {}; simulate the scene "
-                            "again",
-                            file.path().string(), name, runs, motion.runs));
+            throw Error(fmt::format(
+                "{}: /bodies/{} has {} runs, but earlier bodies have {}; simulate the scene again",
+                file.path().string(), name, runs, motion.runs));
         }
         motion.runs = runs;
         bodies.emplace_back(file.integer_attribute("/bodies/" + name, "index"), std::move(body));

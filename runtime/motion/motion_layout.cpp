@@ -43,23 +43,23 @@ void check_body(const std::filesystem::path& file, const BodyMotion& body, int r
     if (body.copies < 1) fail(file, place(body.name, "has no copy"));
     const auto all = static_cast<std::size_t>(runs) * static_cast<std::size_t>(body.copies);
     if (!body.sizes.empty() && body.sizes.size() != all) {
-        fail(file, place(body.name, "has not one size for each run and copy"));
+        fail(file, place(body.name, "does not have one size for each run and copy"));
     }
     for (const double size : body.sizes) {
         if (!(size > 0.0) || !std::isfinite(size)) {
-            fail(file, place(body.name, "has a size that is no positive number"));
+            fail(file, place(body.name, "has a size that is not a positive number"));
         }
     }
     if (body.surface.corners.empty()) fail(file, place(body.name, "has a surface without triangles"));
     if (!body.center_of_mass.allFinite())
         fail(file, place(body.name, "has a centre of mass that is not finite"));
     if (!is_one(body.shortest_axis.norm()))
-        fail(file, place(body.name, "has a shortest_axis that is no unit vector"));
+        fail(file, place(body.name, "has a shortest_axis that is not a unit vector"));
     std::set<std::pair<std::string, std::string>> known;
     for (const MetricUncertainty& one : body.uncertainties) {
         if (!is_link_name(one.cause) || !is_link_name(one.metric) ||
             !known.emplace(one.cause, one.metric).second) {
-            fail(file, place(body.name, "has an uncertainty twice or without a name"));
+            fail(file, place(body.name, "has a duplicate or unnamed uncertainty"));
         }
         if (!(one.relative >= 0.0 && one.chance >= 0.0) || !std::isfinite(one.relative + one.chance)) {
             fail(file, place(body.name, "has an uncertainty that is negative or not finite"));
@@ -155,9 +155,9 @@ std::string uncertainty_group(const std::string& body) {
 }
 
 void check_motion_but_poses(const std::filesystem::path& file, const Motion& motion) {
-    if (motion.times.empty()) fail(file, "/time holds no frame");
-    if (motion.runs < 1) fail(file, "it holds no run");
-    if (motion.bodies.empty()) fail(file, "it holds no body");
+    if (motion.times.empty()) fail(file, "/time has no frames");
+    if (motion.runs < 1) fail(file, "it has no runs");
+    if (motion.bodies.empty()) fail(file, "it has no bodies");
     if (!(motion.frame_rate > 0.0) || !std::isfinite(motion.frame_rate)) {
         fail(file, "frame_rate is not a positive number");
     }
@@ -167,8 +167,8 @@ void check_motion_but_poses(const std::filesystem::path& file, const Motion& mot
     std::set<std::string> names;
     for (const BodyMotion& body : motion.bodies) {
         if (!is_link_name(body.name)) {
-            fail(file,
-                 fmt::format("the body's name '{}' is empty, starts with a dot or holds a slash", body.name));
+            fail(file, fmt::format("the body's name '{}' is empty, starts with a dot or contains a slash",
+                                   body.name));
         }
         if (!names.insert(body.name).second)
             fail(file, fmt::format("two bodies have the name {}", body.name));
@@ -191,7 +191,7 @@ void check_motion(const std::filesystem::path& file, const Motion& motion) {
     const std::size_t rows = static_cast<std::size_t>(motion.runs) * motion.times.size();
     for (const BodyMotion& body : motion.bodies) {
         if (body.poses.size() != rows * static_cast<std::size_t>(body.copies)) {
-            fail(file, place(body.name, "has not one pose for each run, frame and copy"));
+            fail(file, place(body.name, "does not have one pose for each run, frame and copy"));
         }
         check_poses(file, body.name, body.poses);
     }
@@ -251,7 +251,8 @@ std::shared_ptr<const DisplayMesh> read_display(const Hdf5Reader& file, const st
     const bool are_slots = std::all_of(display.slots.begin(), display.slots.end(),
                                        [&](std::int32_t slot) { return slot >= 0 && slot < materials; });
     if (display.corners.empty() || !are_slots || !are_images_sound(display)) {
-        throw Error(fmt::format("{}: {} is no mesh; simulate the scene again", file.path().string(), group));
+        throw Error(
+            fmt::format("{}: {} is not a mesh; simulate the scene again", file.path().string(), group));
     }
     return std::make_shared<const DisplayMesh>(std::move(display));
 }
@@ -287,8 +288,8 @@ std::vector<Obstacle> read_obstacles(const Hdf5Reader& file) {
         obstacle.friction = file.number_attribute(group, "friction");
         obstacle.keys = keys_of(file.finite_doubles(group + "/keys", {0, numbers_of_key}));
         if (!are_sound(obstacle.keys) || !(obstacle.friction >= 0.0) || obstacle.surface.corners.empty()) {
-            throw Error(
-                fmt::format("{}: {} is no obstacle; simulate the scene again", file.path().string(), group));
+            throw Error(fmt::format("{}: {} is not an obstacle; simulate the scene again",
+                                    file.path().string(), group));
         }
         found.emplace_back(file.integer_attribute(group, "index"), std::move(obstacle));
     }

@@ -186,7 +186,7 @@ void write_motion_file(const std::filesystem::path& path, const Motion& motion_b
             file.expect_size(expected_size(motion_but_poses));
         } catch (const Error& error) {
             throw Error(
-                fmt::format("{}: {}; lower the duration, frame_rate, count or runs, or write elsewhere",
+                fmt::format("{}: {}; lower the duration, frame_rate, count or runs, or write to another disk",
                             path.string(), error.what()));
         }
         MotionWriter writer(file, motion_but_poses);

@@ -44,12 +44,13 @@ int frames_of(const Motion& motion, double period) {
     if (whole < 1.0 || std::abs(frames - whole) > 1e-6 * whole) {
         throw Error(
             fmt::format("--loop {:g}: is {:g} frames at {:g} frames per second; give a whole number of "
-                        "them, or another --frame-rate",
+                        "frames, or another --frame-rate",
                         period, frames, motion.frame_rate));
     }
     if (whole > motion.frames() - 1) {
-        throw Error(fmt::format("--loop {:g}: the motion lasts {:g} s; give less, or simulate longer", period,
-                                motion.times.back() - motion.times.front()));
+        throw Error(
+            fmt::format("--loop {:g}: the motion lasts {:g} s; give a shorter loop, or simulate longer",
+                        period, motion.times.back() - motion.times.front()));
     }
     return static_cast<int>(whole);
 }
@@ -81,7 +82,8 @@ Motion resampled(const Motion& motion, double frame_rate) {
     const double begin = motion.times.front();
     const double count = std::floor((motion.times.back() - begin) * frame_rate + same_time) + 1.0;
     if (count > std::numeric_limits<int>::max()) {
-        throw Error(fmt::format("{} frames per second are more frames than can be counted", frame_rate));
+        throw Error(
+            fmt::format("{} frames per second give too many frames; lower the frame rate", frame_rate));
     }
     Motion result = motion;
     result.frame_rate = frame_rate;
@@ -119,8 +121,9 @@ Motion looped(const Motion& motion, int run, double period) {
     const auto moves = std::find_if(motion.obstacles.begin(), motion.obstacles.end(),
                                     [](const Obstacle& obstacle) { return obstacle.moves(); });
     if (moves != motion.obstacles.end()) {
-        throw Error(fmt::format("--loop: the obstacle '{}' moves, and need not be at the end where it began",
-                                moves->name));
+        throw Error(fmt::format(
+            "--loop: the obstacle '{}' moves and does not repeat; leave --loop out, or keep it fixed",
+            moves->name));
     }
     const int frames = frames_of(motion, period);
     const int pieces = (motion.frames() - 1) / frames;

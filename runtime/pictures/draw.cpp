@@ -29,7 +29,7 @@ std::vector<fs::path> interpreters() {
         const auto found = find_program(chosen);
         if (found) return {*found};
         throw Error(fmt::format(
-            "SAMARA_PYTHON names {}, which is no program; unset it, or name a python3 with matplotlib",
+            "SAMARA_PYTHON names {}, which is not a program; unset it, or name a python3 with matplotlib",
             chosen));
     }
     std::vector<fs::path> found;
@@ -66,13 +66,13 @@ void run_python(const TemporaryFolder& folder, const char* what, const fs::path&
         if (status == 0 && !fs::is_empty(output)) return;
         const std::string reason = last_line(read_bytes(folder / "messages"));
         if (status != module_missing) {
-            throw Error(fmt::format("{} could not make {}: {}", python.string(), what,
-                                    reason.empty() ? "it gave no reason" : reason));
+            throw Error(fmt::format("{} failed to make {}: {}", python.string(), what,
+                                    reason.empty() ? "no reason was given" : reason));
         }
         missing = reason;
     }
     throw Error(
-        fmt::format("{} is made by Python's {}, which is not installed: apt install python3-matplotlib "
+        fmt::format("{} needs Python's {}, which is not installed: apt install python3-matplotlib "
                     "python3-jinja2, or name a python3 that has both in SAMARA_PYTHON",
                     what, missing));
 }

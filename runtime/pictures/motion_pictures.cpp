@@ -65,7 +65,7 @@ json strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
 json phase(const Motion& motion, const BodyMotion& body, int run, int copy) {
     if (!has_shortest_axis(body.surface)) {
         throw Error(fmt::format(
-            "'{}' has no shortest axis, whose tilt a phase portrait shows: draw its strip", body.name));
+            "'{}' has no shortest axis, so a phase portrait is not possible; use --kind strip", body.name));
     }
     json picture = of_one_copy("phase", motion, body, run, copy);
     const Tilt tilt = tilt_of(motion, body, run, copy);
@@ -117,10 +117,9 @@ json landing(const Motion& motion, const BodyMotion& body) {
     bool landed = false;
     const std::vector<Place> places = places_of(motion, body, landed);
     if (places.size() < 2) {
-        throw Error(
-            fmt::format("'{}': a landing map needs more than one {}: simulate with --runs N, or a count in "
-                        "the scene",
-                        body.name, landed ? "landing" : "fall"));
+        throw Error(fmt::format(
+            "'{}': a landing map needs more than one {}; simulate with --runs N, or a count in the scene",
+            body.name, landed ? "landing" : "fall"));
     }
     const auto count = static_cast<double>(places.size());
     Vector3d mean = Vector3d::Zero();

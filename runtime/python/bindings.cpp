@@ -112,7 +112,7 @@ bool LongWork::tell(double done, double total) {
     last_ = now;
     const py::gil_scoped_acquire interpreter;
     try {
-        if (exiting) throw Error("the interpreter exits: the simulation was ended");
+        if (exiting) throw Error("the simulation was stopped, as the interpreter exits");
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (!progress_.is_none()) progress_(done, total);
     } catch (...) {

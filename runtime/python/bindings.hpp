@@ -64,7 +64,7 @@ template <typename Type, typename... Options>
 py::class_<Type, Options...> class_of(py::module_& module, const char* name, const char* purpose) {
     py::class_<Type, Options...> made(module, name, purpose);
     py::detail::get_type_info(typeid(Type))->operator_new = [](std::size_t) -> void* {
-        throw py::type_error("the object is empty: it was made by __new__ alone; call the class");
+        throw py::type_error("the object is empty, as it was made by __new__ alone; call the class");
     };
     return made;
 }

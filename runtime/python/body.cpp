@@ -63,38 +63,38 @@ auto table_of(Member member, const std::vector<LoadEntry> LoadTables::*entries =
 }  // namespace
 
 void bind_body(py::module_& module) {
-    class_of<Body, SharedBody>(module, "Body",
-                               "What a body file holds. Arrays are views that cannot be written to.")
+    class_of<Body, SharedBody>(module, "Body", "The content of a body file. Arrays are read-only views.")
         .def_static("read", &read, py::arg("file"), "Reads a body file (.body.h5).")
-        .def_readonly("name", &Body::name, "Of the file it came from, or of the scene.")
-        .def_readonly("source", &Body::source, "How the surface was made, one line.")
+        .def_readonly("name", &Body::name, "The name in the file or in the scene.")
+        .def_readonly("source", &Body::source, "How the surface was made, in one line.")
         .def_property_readonly(
             "vertices",
             [](const py::object& self) {
                 const auto& surface = self.cast<const Body&>().surface;
                 return view(surface.vertices.data()->data(), {length(surface.vertices.size()), 3}, self);
             },
-            "m, shape axes, shape (n, 3).")
+            "Vertices: m, shape axes, shape (n, 3).")
         .def_property_readonly(
             "triangles",
             [](const py::object& self) {
                 const auto& surface = self.cast<const Body&>().surface;
                 return view(surface.corners.data()->data(), {length(surface.corners.size()), 3}, self);
             },
-            "Numbers of vertices, anticlockwise from outside, shape (m, 3).")
+            "Triangles: indices of vertices, counterclockwise seen from outside, shape (m, 3).")
         .def_property_readonly(
             "volume", [](const Body& body) { return body.moments.volume; }, "m^3")
         .def_property_readonly(
             "surface_area", [](const Body& body) { return body.moments.surface_area; }, "m^2")
         .def_property_readonly(
-            "centroid", [](const Body& body) { return body.moments.centroid; }, "m, shape axes, shape (3,).")
+            "centroid", [](const Body& body) { return body.moments.centroid; },
+            "Centroid of the volume: m, shape axes, shape (3,).")
         .def_property_readonly(
             "mass",
             [](const Body& body) -> std::optional<double> {
                 if (!body.mass) return {};
                 return mass_properties(body, *body.mass).mass;
             },
-            "kg, where the body says what it weighs, or None.")
+            "Default mass in kg, or None.")
         .def_property_readonly(
             "kirchhoff_tensor",
             [](const Body& body) -> std::optional<Matrix6d> {
@@ -109,10 +109,10 @@ void bind_body(py::module_& module) {
                 if (!body.kirchhoff) return {};
                 return body.kirchhoff->error_estimate;
             },
-            "The tensor's relative error as estimated, or None.")
+            "Estimated relative error of the tensor, or None.")
         .def_property_readonly(
             "quality", [](const Body& body) { return body.tables ? body.tables->quality : std::string(); },
-            "Of the bake: preview, standard, high; empty without tables.")
+            "Quality of the bake: smoke, preview, standard or high; empty without tables.")
         .def_property_readonly(
             "reynolds_numbers",
             [](const py::object& self) -> py::object {
@@ -120,19 +120,19 @@ void bind_body(py::module_& module) {
                 if (!tables) return py::none();
                 return view(tables->reynolds_numbers.data(), {length(tables->reynolds_numbers.size())}, self);
             },
-            "Of the tables, ascending, shape (r,), or None.")
+            "Reynolds numbers of the tables, ascending, shape (r,), or None.")
         .def_property_readonly(
             "force_table", table_of(&LoadEntry::force),
             "F / (rho U^2 A / 2) over the octahedral map, body axes, shape (r, n, n, 3), or None.")
         .def_property_readonly("moment_table", table_of(&LoadEntry::moment),
-                               "M / (rho U^2 A L / 2), as force_table.")
+                               "M / (rho U^2 A L / 2), in the layout of force_table.")
         .def_property_readonly("force_error_table", table_of(&LoadEntry::force, &LoadTables::errors),
                                "Standard errors of force_table, or None.")
         .def_property_readonly("turbulent_kinetic_energy_table",
                                table_of(&LoadEntry::turbulent_kinetic_energy),
                                "k / U^2 over the octahedral map, shape (r, n, n), or None.")
         .def_property_readonly("dissipation_rate_table", table_of(&LoadEntry::dissipation_rate),
-                               "epsilon L / U^3, as turbulent_kinetic_energy_table.")
+                               "epsilon L / U^3, in the layout of turbulent_kinetic_energy_table.")
         .def(
             "loads",
             [](const Body& body, const py::object& given, double reynolds_number) {
@@ -152,14 +152,14 @@ void bind_body(py::module_& module) {
                 return std::make_pair(entry.force, entry.moment);
             },
             py::arg("direction"), py::arg("reynolds_number"),
-            "The tables' force and moment coefficients where the body moves in a direction (shape axes) "
-            "relative to the fluid.")
+            "The tables' force and moment coefficients for motion in a direction (shape axes) relative to "
+            "the fluid.")
         .def(
             "_picture",
             [](const Body& body, const std::string& picture) {
                 return as_python(on_input([&] { return body_picture(picture, body); }));
             },
-            py::arg("picture"), "What samara.plot draws of the tables.")
+            py::arg("picture"), "The data that samara.plot draws.")
         .def("__repr__", [](const Body& body) {
             return fmt::format("<samara.Body {}: {} triangles{}>", body.name, body.surface.triangle_count(),
                                body.tables ? ", tables of quality " + body.tables->quality : "");

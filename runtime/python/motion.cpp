@@ -106,15 +106,16 @@ BodyOfMotion body_named(const FlownMotion& motion, const std::string& name) {
     for (std::size_t i = 0; i < motion.motion->bodies.size(); ++i) {
         if (motion.motion->bodies[i].name == name) return {motion.motion, i};
     }
-    throw py::key_error(fmt::format("'{}': the bodies are {}", name, names_of(*motion.motion)));
+    throw py::key_error(fmt::format("'{}' is not a body; choose one of {}", name, names_of(*motion.motion)));
 }
 
 void require_fall(const BodyOfMotion& body, int run, int copy) {
     if (run < 0 || run >= body.motion->runs) {
-        throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, body.motion->runs));
+        throw py::index_error(fmt::format("run {}: there are only {}; count from 0", run, body.motion->runs));
     }
     if (copy < 0 || copy >= body.body().copies) {
-        throw py::index_error(fmt::format("copy {}: there are {}, counted from 0", copy, body.body().copies));
+        throw py::index_error(
+            fmt::format("copy {}: there are only {}; count from 0", copy, body.body().copies));
     }
 }
 
@@ -183,7 +184,7 @@ py::object compared(const py::object& motion, const py::object& reference,
         const MotionReader second(reference_file);
         return told(compare(choice_of(first, "the motion", body), choice_of(second, "the reference", body),
                             settings, [&](double done, double total) {
-                                if (!work.tell(done, total)) throw Error("the comparison was ended");
+                                if (!work.tell(done, total)) throw Error("the comparison was stopped");
                             }));
     };
     const std::filesystem::path& warned_of =
@@ -221,7 +222,7 @@ py::object picture_of_motion(const FlownMotion& motion, const std::string& pictu
 
 void require_run(const FlownMotion& motion, int run) {
     if (run >= 0 && run < motion.motion->runs) return;
-    throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, motion.motion->runs));
+    throw py::index_error(fmt::format("run {}: there are only {}; count from 0", run, motion.motion->runs));
 }
 
 void export_to(const FlownMotion& motion, const std::filesystem::path& file, int run) {
@@ -259,30 +260,29 @@ std::string page(const FlownMotion& motion, int run) {
 
 void bind_body_motion(py::module_& module) {
     class_of<BodyOfMotion>(module, "BodyMotion",
-                           "A body of a motion with all its copies, runs and frames. Arrays are views that "
-                           "cannot be written to; "
+                           "A body of a motion with all copies, runs and frames. Arrays are read-only views; "
                            "they keep the motion alive.")
         .def_property_readonly(
-            "name", [](const BodyOfMotion& body) { return body.body().name; }, "In the scene.")
+            "name", [](const BodyOfMotion& body) { return body.body().name; }, "The name in the scene.")
         .def_property_readonly(
-            "copies", [](const BodyOfMotion& body) { return body.body().copies; }, "How many.")
+            "copies", [](const BodyOfMotion& body) { return body.body().copies; }, "Number of copies.")
         .def_property_readonly(
             "models", [](const BodyOfMotion& body) { return body.body().models; },
-            "In words: the loads, turbulence and defaults that were used.")
+            "The loads, turbulence and defaults that were used, as text.")
         .def_property_readonly(
             "center_of_mass", [](const BodyOfMotion& body) { return body.body().center_of_mass; },
             "m, shape axes, shape (3,).")
         .def_property_readonly(
             "position", &poses<PoseMember::position>,
-            "Of the centre of mass: m, world axes (z up), shape (runs, frames, copies, 3).")
+            "Position of the centre of mass: m, world axes (z up), shape (runs, frames, copies, 3).")
+        .def_property_readonly("orientation", &poses<PoseMember::orientation>,
+                               "Rotation from shape to world axes: unit quaternions x, y, z, w (as in "
+                               "scipy's Rotation), shape (runs, frames, copies, 4).")
         .def_property_readonly(
-            "orientation", &poses<PoseMember::orientation>,
-            "Shape to world axes as unit quaternions x, y, z, w (as scipy's Rotation has them), shape (runs, "
-            "frames, copies, 4).")
-        .def_property_readonly("velocity", &poses<PoseMember::velocity>,
-                               "Of the centre of mass: m/s, world axes, shape (runs, frames, copies, 3).")
+            "velocity", &poses<PoseMember::velocity>,
+            "Velocity of the centre of mass: m/s, world axes, shape (runs, frames, copies, 3).")
         .def_property_readonly("angular_velocity", &poses<PoseMember::angular_velocity>,
-                               "rad/s, world axes, shape (runs, frames, copies, 3).")
+                               "Angular velocity: rad/s, world axes, shape (runs, frames, copies, 3).")
         .def_property_readonly(
             "sizes",
             [](const py::object& self) -> py::object {
@@ -291,7 +291,7 @@ void bind_body_motion(py::module_& module) {
                 if (sizes.empty()) return py::none();
                 return view(sizes.data(), {body.motion->runs, body.body().copies}, self);
             },
-            "Lengths of the copies over those of the vertices, shape (runs, copies); None where all are 1.")
+            "Sizes of the copies relative to the vertices, shape (runs, copies); None if all are 1.")
         .def_property_readonly(
             "vertices",
             [](const py::object& self) {
@@ -305,7 +305,7 @@ void bind_body_motion(py::module_& module) {
                 const Surface& surface = self.cast<const BodyOfMotion&>().body().surface;
                 return view(surface.corners.data()->data(), {length(surface.corners.size()), 3}, self);
             },
-            "Numbers of vertices, anticlockwise from outside, shape (m, 3).")
+            "Triangles: indices of vertices, counterclockwise seen from outside, shape (m, 3).")
         .def("measure", &measured, py::arg("run") = 0, py::arg("copy") = 0, py::arg("window") = py::none(),
              "The metrics of one fall as a dict in SI units and radians: descent_speed, frequency, "
              "inclination_amplitude, "
@@ -324,37 +324,38 @@ void bind_body_motion(py::module_& module) {
 
 void bind_motion(py::module_& module) {
     bind_body_motion(module);
-    class_of<FlownMotion>(module, "Motion",
-                          "What bodies did: poses at even times, in runs that differ by their noise alone.")
+    class_of<FlownMotion>(
+        module, "Motion",
+        "A simulated motion: poses at equal intervals, in runs that differ only in their noise.")
         .def_static("read", &read, py::arg("file"), "Reads a motion file (.h5).")
-        .def("write", &write, py::arg("file"),
-             "Writes a motion file (.h5): the file stands whole, or not at all.")
+        .def("write", &write, py::arg("file"), "Writes a motion file (.h5) atomically.")
         .def("export", &export_to, py::arg("file"), py::arg("run") = 0,
-             "Writes one run for other programs, by the name's ending: .glb, .usda, .chan, .csv, .html.")
-        .def("page", &page, py::arg("run") = 0, "The page (.html) that plays a run, as text.")
+             "Writes one run for other programs, in the format of the name's ending: .glb, .usda, .chan, "
+             ".csv, .html.")
+        .def("page", &page, py::arg("run") = 0, "The page (.html) that plays a run, as a string.")
         .def("_picture", &picture_of_motion, py::arg("picture"), py::arg("body"), py::arg("run"),
-             py::arg("copy"), "What samara.plot draws of a body.")
+             py::arg("copy"), "The data that samara.plot draws for a body.")
         .def_property_readonly(
             "times",
             [](const py::object& self) {
                 const Motion& motion = *self.cast<const FlownMotion&>().motion;
                 return view(motion.times.data(), {length(motion.times.size())}, self);
             },
-            "s, shape (frames,).")
+            "Times of the frames: s, shape (frames,).")
         .def_property_readonly(
-            "runs", [](const FlownMotion& motion) { return motion.motion->runs; }, "How many.")
+            "runs", [](const FlownMotion& motion) { return motion.motion->runs; }, "Number of runs.")
         .def_property_readonly(
             "frame_rate", [](const FlownMotion& motion) { return motion.motion->frame_rate; },
             "Frames per second.")
         .def_property_readonly(
             "seed", [](const FlownMotion& motion) { return motion.motion->seed; },
-            "Of the noise and the starts.")
+            "Seed of the noise and the starts.")
         .def_property_readonly(
             "scene_text", [](const FlownMotion& motion) { return motion.motion->scene_text; },
-            "The scene as it was read.")
-        .def_property_readonly(
-            "report", &report_of,
-            "Of a motion that was flown here: steps, seconds, highest Reynolds numbers, ...; else None.")
+            "The text of the scene.")
+        .def_property_readonly("report", &report_of,
+                               "For a motion simulated in this process: steps, seconds, highest Reynolds "
+                               "numbers, ...; otherwise None.")
         .def_property_readonly(
             "bodies",
             [](const FlownMotion& motion) {
@@ -375,14 +376,13 @@ void bind_motion(py::module_& module) {
                py::arg("step"), py::arg("threads"), py::arg("bodies"), py::arg("progress"));
     module.def("compare", &comparison, py::arg("motion"), py::arg("reference"), py::kw_only(),
                py::arg("body") = py::none(), py::arg("window") = py::none(), py::arg("progress") = py::none(),
-               "Holds a motion against a reference, such as a fall by full CFD; each a Motion or a file. A "
-               "dict, as 'samara "
-               "compare --json' prints it (docs/reference/output.md): `agrees`, `certain`, and each figure of both "
-               "with its standard "
-               "error, their difference and the verdict. `window`: (begin, end) in s after the release.");
+               "Compares a motion with a reference, such as a fall by full CFD; each is a Motion or a file. "
+               "Returns the dict that 'samara compare --json' prints (docs/reference/output.md): `agrees`, "
+               "`certain`, and each metric of both with its standard error, the difference and the verdict. "
+               "`window`: (begin, end) in s after the release.");
     module.def("_comparison_picture", &picture_of_comparison, py::arg("motion"), py::arg("reference"),
                py::kw_only(), py::arg("body") = py::none(), py::arg("window") = py::none(),
-               "What samara.plot draws of both.");
+               "The data that samara.plot draws for both.");
 }
 
 }  // namespace samara::python

@@ -20,17 +20,16 @@ namespace {
 constexpr int most_levels = 32;  // of lists and dicts within each other; scenes need six
 
 RaisedInputError no_toml(const std::string& place, const py::handle& value) {
-    return RaisedInputError(
-        fmt::format("{} is of the type {}; a scene holds numbers, texts, booleans, lists and dicts", place,
-                    py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
+    return RaisedInputError(fmt::format("{} has the type {}; use numbers, strings, booleans, lists and dicts",
+                                        place,
+                                        py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
 }
 
 /// Throws RaisedInputError where a scene nests deeper than any does, as one that contains itself.
 void require_levels(const std::string& place, int level) {
     if (level <= most_levels) return;
     throw RaisedInputError(
-        fmt::format("{}...: lists and dicts lie more than {} deep within each other; does one hold "
-                    "itself?",
+        fmt::format("{}...: lists and dicts are nested more than {} deep; check that none contains itself",
                     place.substr(0, place.find('[', place.find('[') + 1)), most_levels));
 }
 
@@ -38,7 +37,7 @@ std::string text_of(const py::handle& text, const std::string& place) {
     try {
         return text.cast<std::string>();
     } catch (const py::cast_error&) {
-        throw RaisedInputError(fmt::format("{} holds a text that is no Unicode", place));
+        throw RaisedInputError(fmt::format("{} holds a string that is not valid Unicode; correct it", place));
     }
 }
 
@@ -47,7 +46,8 @@ std::int64_t whole_number(const py::handle& value, const std::string& place) {
     if (!number) throw py::error_already_set();
     int overflow = 0;
     const long long result = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
-    if (overflow != 0) throw RaisedInputError(fmt::format("{} is a whole number beyond 64 bits", place));
+    if (overflow != 0)
+        throw RaisedInputError(fmt::format("{} is an integer beyond 64 bits; give a smaller one", place));
     return result;
 }
 
@@ -56,7 +56,7 @@ double real_number(const py::handle& value, const std::string& place) {
     if (PyErr_Occurred() == nullptr) return number;
     if (PyErr_ExceptionMatches(PyExc_OverflowError) == 0) throw py::error_already_set();
     PyErr_Clear();
-    throw RaisedInputError(fmt::format("{} is beyond the range of numbers", place));
+    throw RaisedInputError(fmt::format("{} is beyond the range of numbers; give a smaller one", place));
 }
 
 /// Returns whether it is a number of numpy's or an array: numpy.bool_, numpy.float32(1), numpy.zeros(3).
@@ -108,8 +108,8 @@ toml::table as_toml_table(const py::dict& values, const std::string& place, int 
     toml::table table;
     for (const auto& [key, value] : values) {
         if (!py::isinstance<py::str>(key)) {
-            throw RaisedInputError(
-                fmt::format("{} has the key {}; keys are texts", place, py::repr(key).cast<std::string>()));
+            throw RaisedInputError(fmt::format("{} has the key {}; keys must be strings", place,
+                                               py::repr(key).cast<std::string>()));
         }
         const std::string name = text_of(key, place);
         if (value.is_none()) continue;
@@ -139,19 +139,18 @@ std::string toml_text(const py::dict& values, const std::string& place) {
 }
 
 void bind_scene(py::module_& module) {
-    class_of<Scene, std::shared_ptr<Scene>>(
-        module, "Scene",
-        "What falls in what, and how it starts: a scene file, checked. It does not change; make another for "
-        "other values.")
+    class_of<Scene, std::shared_ptr<Scene>>(module, "Scene",
+                                            "A checked scene: bodies, fluid and initial conditions. A Scene "
+                                            "is immutable; make another one for other values.")
         .def(py::init(&scene_of_dict), py::arg("values"), py::arg("folder") = ".",
              "A scene from a dict with the keys of a scene file: {'scene': {'duration': 2}, 'fluid': {...}, "
-             "'body': [{...}, ...]}. Keys that are None are left out. Paths in it are taken from `folder`.")
+             "'body': [{...}, ...]}. Keys with the value None are left out. Paths are relative to `folder`.")
         .def_static(
             "read",
             [](const std::filesystem::path& file) {
                 return on_input([&] { return read_scene_file(file); }, file);
             },
-            py::arg("file"), "Reads a scene file (.toml). Paths in it are taken from its folder.")
+            py::arg("file"), "Reads a scene file (.toml). Paths are relative to its folder.")
         .def_static(
             "from_text",
             [](const std::string& text, const std::filesystem::path& folder) {
@@ -161,12 +160,13 @@ void bind_scene(py::module_& module) {
         .def_readonly("duration", &Scene::duration, "s")
         .def_readonly("step", &Scene::step, "s")
         .def_readonly("frame_rate", &Scene::frame_rate, "Frames per second.")
-        .def_readonly("seed", &Scene::seed, "Of the noise and the spread of starts.")
-        .def_readonly("ground", &Scene::ground, "m: the height of level ground, or None.")
+        .def_readonly("seed", &Scene::seed, "Seed of the noise and the spread of starts.")
+        .def_readonly("ground", &Scene::ground, "Height of the level ground in m, or None.")
         .def_property_readonly(
-            "gravity", [](const Scene& scene) { return scene.gravity; }, "m/s^2, world axes, shape (3,).")
+            "gravity", [](const Scene& scene) { return scene.gravity; },
+            "Gravity: m/s^2, world axes, shape (3,).")
         .def_property_readonly("names", &names_of, "The bodies' names, in the scene's order.")
-        .def_readonly("text", &Scene::text, "As a scene file has it.")
+        .def_readonly("text", &Scene::text, "The text of the scene file.")
         .def("__repr__", [](const Scene& scene) {
             return fmt::format("<samara.Scene of {} s: {}>", scene.duration,
                                fmt::join(names_of(scene), ", "));
@@ -180,7 +180,8 @@ void bind_scene(py::module_& module) {
             }
             return bodies;
         },
-        "The ready-baked bodies, which a scene calls 'samara:NAME', and what each is for.");
+        "The names of the ready-baked bodies, which a scene uses as 'samara:NAME', with the purpose of "
+        "each.");
 }
 
 }  // namespace samara::python

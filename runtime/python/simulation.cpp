@@ -257,17 +257,18 @@ class LiveSimulation {
     [[nodiscard]] std::size_t index_of(const std::string& name, int run, int copy) const {
         const Group& group = group_named(name);
         if (run < 0 || run >= runs_) {
-            throw py::index_error(fmt::format("run {}: there are {}, counted from 0", run, runs_));
+            throw py::index_error(fmt::format("run {}: there are only {}; count from 0", run, runs_));
         }
         if (copy < 0 || copy >= group.copies) {
-            throw py::index_error(fmt::format("copy {}: there are {}, counted from 0", copy, group.copies));
+            throw py::index_error(
+                fmt::format("copy {}: there are only {}; count from 0", copy, group.copies));
         }
         return group.first + static_cast<std::size_t>(run * group.copies + copy);
     }
 
     void require_there(std::size_t index) const {
         if (simulation_->is_removed(index))
-            throw RaisedInputError("the body is removed; put it back by set_pose");
+            throw RaisedInputError("the body is removed; restore it with set_pose");
     }
 
     /// A force, or impulse, as it is given.
@@ -297,7 +298,8 @@ class LiveSimulation {
         for (const Group& group : groups_) {
             if (group.name == name) return group;
         }
-        throw py::key_error(fmt::format("'{}': the bodies are {}", name, fmt::join(names(), ", ")));
+        throw py::key_error(
+            fmt::format("'{}' is not a body; choose one of {}", name, fmt::join(names(), ", ")));
     }
 
     template <typename Work>
@@ -319,7 +321,7 @@ class LiveSimulation {
 
     void require_no_advance() const {
         if (!advancing_) return;
-        throw Error("the simulation advances: a progress function may look at it, but not change it");
+        throw Error("the simulation is advancing; a progress function may read it, but not change it");
     }
 
     /// Marks the simulation as advancing for as long as it lives..
@@ -352,80 +354,77 @@ py::array member_of(const py::object& self) {
 
 void bind_simulation(py::module_& module) {
     class_of<Poses>(module, "Poses",
-                    "Poses of all runs and copies of a body at one time; arrays that cannot be written to.")
-        .def_property_readonly("position", &member_of<PoseMember::position>,
-                               "Of the centre of mass: m, world axes (z up), shape (runs, copies, 3).")
-        .def_property_readonly("orientation", &member_of<PoseMember::orientation>,
-                               "Shape to world axes as unit quaternions x, y, z, w, shape (runs, copies, 4).")
+                    "Poses of all runs and copies of a body at one time, as read-only arrays.")
+        .def_property_readonly(
+            "position", &member_of<PoseMember::position>,
+            "Position of the centre of mass: m, world axes (z up), shape (runs, copies, 3).")
+        .def_property_readonly(
+            "orientation", &member_of<PoseMember::orientation>,
+            "Rotation from shape to world axes: unit quaternions x, y, z, w, shape (runs, copies, 4).")
         .def_property_readonly("velocity", &member_of<PoseMember::velocity>,
-                               "m/s, world axes, shape (runs, copies, 3).")
+                               "Velocity of the centre of mass: m/s, world axes, shape (runs, copies, 3).")
         .def_property_readonly("angular_velocity", &member_of<PoseMember::angular_velocity>,
-                               "rad/s, world axes, shape (runs, copies, 3).");
+                               "Angular velocity: rad/s, world axes, shape (runs, copies, 3).");
     class_of<LiveSimulation>(
         module, "Simulation",
-        "Bodies of a scene that fall call by call: any time may be asked for, poses read "
-        "and set, all of it saved "
-        "and restored. The motion does not depend on how the times are cut into calls.")
+        "A simulation of a scene that you advance step by step: read and set poses at any time, and save and "
+        "restore the state. The motion does not depend on the times at which you call advance().")
         .def(py::init<const Scene&, int, std::optional<std::uint64_t>, int, const std::filesystem::path&>(),
              py::arg("scene"), py::kw_only(), py::arg("runs") = 1, py::arg("seed") = py::none(),
              py::arg("threads") = 1, py::arg("bodies") = "",
              "Puts the bodies of a Scene at their starts. `bodies`: a folder of baked bodies, NAME.body.h5.")
         .def_property_readonly("time", &LiveSimulation::time, "s")
-        .def_property_readonly("steps", &LiveSimulation::steps, "Taken so far, over all bodies.")
+        .def_property_readonly("steps", &LiveSimulation::steps,
+                               "The number of steps so far, over all bodies.")
         .def_property_readonly("names", &LiveSimulation::names, "The bodies' names, in the scene's order.")
         .def("advance", &LiveSimulation::advance, py::arg("time"), py::kw_only(),
              py::arg("progress") = py::none(),
-             "Steps all bodies to a time (s), which cannot lie before `time`. `progress` is called with "
-             "(done, total) in s.")
-        .def("poses", &LiveSimulation::poses, py::arg("name"), "All copies of a body in all runs, now.")
+             "Advances all bodies to a time (s), not earlier than `time`. `progress` is called with (done, "
+             "total) in s.")
+        .def("poses", &LiveSimulation::poses, py::arg("name"),
+             "The current poses of all copies of a body in all runs.")
         .def("set_pose", &LiveSimulation::set_pose, py::arg("name"), py::kw_only(), py::arg("run") = 0,
              py::arg("copy") = 0, py::arg("position") = py::none(), py::arg("orientation") = py::none(),
              py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
-             "Puts one body elsewhere; what is not given stays.")
-        .def(
-            "add_force", &LiveSimulation::add_force, py::arg("name"), py::arg("force"), py::kw_only(),
-            py::arg("point") = py::none(), py::arg("moment") = py::none(), py::arg("run") = 0,
-            py::arg("copy") = 0,
-            "Pushes a body over the next advance(): N, world axes, at a point (m, world; None: the centre of "
-            "mass), and with a moment (N m). Several add up.")
+             "Sets the pose of one body; arguments that are left out keep their values.")
+        .def("add_force", &LiveSimulation::add_force, py::arg("name"), py::arg("force"), py::kw_only(),
+             py::arg("point") = py::none(), py::arg("moment") = py::none(), py::arg("run") = 0,
+             py::arg("copy") = 0,
+             "Applies a force to a body during the next advance(): N, world axes, at a point (m, world; "
+             "None: the centre of mass), and a moment (N m). Several forces add up.")
         .def("add_impulse", &LiveSimulation::add_impulse, py::arg("name"), py::arg("impulse"), py::kw_only(),
              py::arg("point") = py::none(), py::arg("angular_impulse") = py::none(), py::arg("run") = 0,
              py::arg("copy") = 0,
-             "Gives a body an impulse now (N s, world axes; N m s): body and fluid take it together.")
+             "Applies an impulse to a body now (N s, world axes; N m s); the body and its added mass respond "
+             "together.")
         .def("remove", &LiveSimulation::remove, py::arg("name"), py::kw_only(), py::arg("run") = 0,
-             py::arg("copy") = 0, "Takes a body out where it is; set_pose() puts it back.")
+             py::arg("copy") = 0, "Removes a body; set_pose() restores it.")
         .def("fluid_load", &LiveSimulation::fluid_load, py::arg("name"), py::kw_only(), py::arg("run") = 0,
              py::arg("copy") = 0,
-             "What the fluid does to a body in its next step, for a host that integrates it: wrench W (6,), "
-             "added "
-             "inertia A and damping D (6, 6), SI units, world axes at the centre of mass, angular then "
-             "linear. "
-             "With its own inertia M, own wrench g and the step h: (M + A + h D) a = g + W. Then set_pose() "
-             "and "
-             "advance() by a step.")
+             "The fluid loads on a body in its next step, for a host that integrates the body: wrench W "
+             "(6,), added inertia A and damping D (6, 6), SI units, world axes at the centre of mass, "
+             "angular then linear. With its own inertia M, own wrench g and the step h: (M + A + h D) a = g "
+             "+ W. Then set_pose() and advance() by a step.")
         .def("mass_properties", &LiveSimulation::mass_properties, py::arg("name"), py::kw_only(),
              py::arg("run") = 0, py::arg("copy") = 0,
-             "Of the body alone: its mass (kg), its centre (m from the shape's origin, shape axes, (3,)) and "
-             "its "
-             "inertia about that (kg m^2, shape axes, (3, 3)).")
+             "The body's own mass (kg), centre of mass (m from the shape's origin, shape axes, (3,)) and "
+             "inertia about it (kg m^2, shape axes, (3, 3)), without added mass.")
         .def("set_ground", &LiveSimulation::set_ground, py::arg("height"),
-             "Level ground at another height (m), or None: what is below it is lifted onto it.")
+             "Sets the height of the level ground (m), or None to remove it. Bodies below it are lifted onto "
+             "it.")
         .def("set_wind", &LiveSimulation::set_wind, py::arg("wind"),
-             "Another wind from now on: a dict with the keys of [wind] of a scene; {} is none.")
+             "Sets the scene's wind from now on: a dict with the keys of [wind] of a scene; {} removes it.")
         .def("watch_contacts", &LiveSimulation::watch_contacts, py::arg("watch"),
-             "Notes from now on what bodies meet of ground, obstacles and each other, or no longer.")
+             "Starts or stops recording contacts of bodies with the ground, obstacles and each other.")
         .def("take_contacts", &LiveSimulation::take_contacts, py::arg("name"),
-             "The contacts of a body's copies since they were last taken, arrays (runs, copies, ...): "
-             "impulse (N s, "
-             "world axes, the sum), strongest (N s, of one point in one step; 0: there was none) with its "
-             "point (m), normal, time (s), obstacle (its number; -1: level ground, or a body) and body (the "
-             "number of the body that was touched, counted over the scene's bodies, run by run and copy by "
-             "copy; "
-             "-1: "
-             "none), and at_rest.")
-        .def("state", &LiveSimulation::state, "All that the rest of the flight depends on, as bytes.")
+             "The contacts of a body's copies since the last call, as arrays (runs, copies, ...): impulse (N "
+             "s, world axes, the sum), strongest (N s, the largest at one point in one step; 0: no contact) "
+             "with its point (m), normal, time (s), obstacle (its index; -1: level ground, or a body) and "
+             "body (the index of the other body, counted over the scene's bodies, run by run and copy by "
+             "copy; -1: none), and at_rest.")
+        .def("state", &LiveSimulation::state, "The complete state of the simulation, as bytes.")
         .def("set_state", &LiveSimulation::set_state, py::arg("state"),
-             "Goes on from such a state, of a flight of the same scene, runs and seed.");
+             "Restores a state that was saved with the same scene, runs and seed.");
 }
 
 }  // namespace samara::python

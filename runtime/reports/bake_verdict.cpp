@@ -35,14 +35,13 @@ const ErrorShare& largest_source(const LoadTables& tables, double ErrorShare::*q
 const char* remedy_of(ErrorSource source) {
     switch (source) {
         case ErrorSource::mesh:
-            return "a higher quality has finer meshes";
+            return "use a higher quality, with finer meshes";
         case ErrorSource::interpolation:
-            return "a higher quality has more directions, and a bake of a scene has them where it needs "
-                   "them";
+            return "use a higher quality, or bake the scene, which adds directions where it needs them";
         case ErrorSource::closure:
-            return "--loads takes another closure";
+            return "try another closure with --loads";
         default:
-            return "a higher quality solves longer";
+            return "use a higher quality, which solves longer";
     }
 }
 
@@ -54,18 +53,18 @@ bool holds(const LoadTables& tables, ErrorSource source) {
 void judge_error(std::vector<Finding>& findings, const LoadTables& tables, const char* what,
                  double ErrorShare::*quantity, const char* consequence) {
     if (tables.error_sources.empty()) {
-        findings.push_back({Grade::bad, what,
-                            "its error is not known: the file does not tell errors by source; bake again"});
+        findings.push_back(
+            {Grade::bad, what, "its error is unknown: the file has no errors by source; bake again"});
         return;
     }
     const double error = total_error(tables.error_sources, quantity);
     const ErrorShare& worst = largest_source(tables, quantity);
     const Grade grade = grade_of(error);
-    std::string text = fmt::format("standard error {} of it, root mean square over all directions{}",
+    std::string text = fmt::format("relative standard error {}, root mean square over all directions{}",
                                    per_cent(error), consequence);
     if (grade != Grade::good) {
-        text += fmt::format("; most is of the {} ({}): {}", name_of(worst.source), per_cent(worst.*quantity),
-                            remedy_of(worst.source));
+        text += fmt::format("; the largest part comes from the {} ({}): {}", name_of(worst.source),
+                            per_cent(worst.*quantity), remedy_of(worst.source));
     }
     findings.push_back({grade, what, text});
 }
@@ -77,53 +76,54 @@ void judge_sources(std::vector<Finding>& findings, const LoadTables& tables) {
     }
     if (missing.empty()) {
         findings.push_back({Grade::good, "error sources",
-                            "tail, symmetry, mesh, closure and interpolation are all in the errors"});
+                            "the errors include tail, symmetry, mesh, closure and interpolation"});
         return;
     }
     const bool closure_alone = missing == std::vector<std::string>{"closure"};
     findings.push_back(
         {closure_alone ? Grade::limited : Grade::bad, "error sources",
-         fmt::format("the errors know nothing of: {}; {}", fmt::join(missing, ", "),
-                     closure_alone
-                         ? "only quality high solves with other closures, and docs/studies/closures "
-                           "says what they come to"
-                         : "the true errors are larger; bake with a higher quality")});
+         fmt::format(
+             "the errors do not include: {}; {}", fmt::join(missing, ", "),
+             closure_alone
+                 ? "only quality high solves with other closures; docs/studies/closures lists typical values"
+                 : "the true errors are larger; bake with a higher quality")});
 }
 
 void judge_quality(std::vector<Finding>& findings, const LoadTables& tables) {
     if (tables.quality != "smoke") return;
-    findings.push_back(
-        {Grade::bad, "quality", "smoke is for trying the programs alone; bake with preview or higher"});
+    findings.push_back({Grade::bad, "quality", "smoke only tests the programs; bake with preview or higher"});
 }
 
 void judge_cases(std::vector<Finding>& findings, const LoadTables& tables,
                  const std::vector<CaseRecord>& records) {
     if (const std::size_t left_out = left_out_cases(tables).size(); left_out > 0) {
         const double share = static_cast<double>(left_out) / static_cast<double>(left_out + records.size());
-        findings.push_back({share > well_known ? Grade::bad : Grade::limited, "left out",
-                            fmt::format("{} of {} cases could not be solved, and are filled from the others",
-                                        left_out, left_out + records.size())});
+        findings.push_back(
+            {share > well_known ? Grade::bad : Grade::limited, "left out",
+             fmt::format("{} of {} cases could not be solved, and are interpolated from the others", left_out,
+                         left_out + records.size())});
     }
     if (records.empty()) {
-        findings.push_back({Grade::limited, "cases", "the file does not say how they were solved"});
+        findings.push_back({Grade::limited, "cases", "the file has no record of how they were solved"});
         return;
     }
     const auto count = [&](const auto& is) { return std::ranges::count_if(records, is); };
     const auto restless = count([](const CaseRecord& one) { return one.verdict == "restless"; });
     findings.push_back(
-        restless == 0 ? Finding{Grade::good, "cases",
-                                fmt::format("all {} settled within their tolerances", records.size())}
-                      : Finding{Grade::limited, "cases",
-                                fmt::format("{} of {} swing about a mean that stays; their error holds it",
-                                            restless, records.size())});
+        restless == 0
+            ? Finding{Grade::good, "cases",
+                      fmt::format("all {} converged within their tolerances", records.size())}
+            : Finding{Grade::limited, "cases",
+                      fmt::format("{} of {} oscillate about a constant mean; their error includes this",
+                                  restless, records.size())});
     const auto errory =
         count([](const CaseRecord& one) { return !one.mesh_verdict.empty() && one.mesh_verdict != "ok"; });
     if (errory > 0) {
         findings.push_back(
             {Grade::limited, "meshes",
-             fmt::format("checkMesh finds errors in those of {} of {} cases", errory, records.size())});
+             fmt::format("checkMesh finds errors in the meshes of {} of {} cases", errory, records.size())});
     } else if (std::ranges::any_of(records, [](const CaseRecord& one) { return one.cells > 0.0; })) {
-        findings.push_back({Grade::good, "meshes", "checkMesh finds no error"});
+        findings.push_back({Grade::good, "meshes", "checkMesh finds no errors"});
     }
 }
 
@@ -133,8 +133,8 @@ void judge_solver(std::vector<Finding>& findings, const std::vector<CaseRecord>&
     });
     if (other == records.end()) return;
     findings.push_back({Grade::limited, "solver",
-                        fmt::format("by OpenFOAM '{}'; the cases are tested with v{} alone", other->openfoam,
-                                    tested_openfoam)});
+                        fmt::format("solved with OpenFOAM '{}'; the cases are tested only with v{}",
+                                    other->openfoam, tested_openfoam)});
 }
 
 double planned_share(const PlannedRegion& plan) {
@@ -150,17 +150,16 @@ void judge_region(std::vector<Finding>& findings, const LoadTables& tables) {
         return;
     }
     findings.push_back({Grade::limited, "directions",
-                        fmt::format("baked for one scene: {} of all directions were planned, the others are "
+                        fmt::format("baked for one scene: {} of all directions were solved, the others are "
                                     "extrapolated; --whole-grid bakes all",
                                     per_cent(share))});
 }
 
 void judge_motion(std::vector<Finding>& findings, const Body& body) {
     if (!body.dynamic) {
-        findings.push_back(
-            {Grade::bad, "rotation",
-             "no falls were solved: the dynamic coefficients are those that bodies have in common; "
-             "quality standard identifies them"});
+        findings.push_back({Grade::bad, "rotation",
+                            "no falls were solved, and the default dynamic coefficients are used; quality "
+                            "standard identifies them"});
         return;
     }
     findings.push_back(
@@ -170,7 +169,7 @@ void judge_motion(std::vector<Finding>& findings, const Body& body) {
 
 void judge_kirchhoff(std::vector<Finding>& findings, const Body& body) {
     if (!body.kirchhoff) {
-        findings.push_back({Grade::bad, "added mass", "there is none; 'samara kirchhoff' adds it"});
+        findings.push_back({Grade::bad, "added mass", "missing; 'samara kirchhoff' computes it"});
         return;
     }
     const double error = body.kirchhoff->error_estimate;
@@ -190,14 +189,15 @@ void judge_reynolds_numbers(std::vector<Finding>& findings, const LoadTables& ta
     const auto& numbers = tables.reynolds_numbers;
     const std::string speeds = speeds_in("water", tables) + ", " + speeds_in("air", tables);
     if (numbers.size() == 1) {
-        findings.push_back({Grade::limited, "Reynolds number",
-                            fmt::format("{:.6g} alone ({}): at other speeds the same coefficients are held; "
-                                        "quality standard has a range",
-                                        numbers.front(), speeds)});
+        findings.push_back(
+            {Grade::limited, "Reynolds number",
+             fmt::format(
+                 "only {:.6g} ({}): other speeds use the same coefficients; quality standard covers a range",
+                 numbers.front(), speeds)});
         return;
     }
     findings.push_back({Grade::good, "Reynolds numbers",
-                        fmt::format("{:.6g} to {:.6g} ({}); beyond, the last coefficients are held",
+                        fmt::format("{:.6g} to {:.6g} ({}); outside, the nearest coefficients are used",
                                     numbers.front(), numbers.back(), speeds)});
 }
 
@@ -229,19 +229,19 @@ void sort_uses(BakeVerdict& verdict, const Body& body, const Uses& uses) {
         (good ? verdict.good_for : verdict.not_for).push_back(use);
     };
     put(uses.pictures, "pictures and animations: falls of the right regime");
-    put(uses.speeds, fmt::format("speeds of descent, which the tables leave uncertain {}",
+    put(uses.speeds, fmt::format("descent speeds, which the tables make uncertain {}",
                                  error_in_words(tables, &ErrorShare::force, 0.5)));
-    put(uses.swings, "frequencies and amplitudes of swings" +
-                         (!body.dynamic ? ": no fall of this body was solved"
+    put(uses.swings, "frequencies and amplitudes of oscillation" +
+                         (!body.dynamic ? ": no fall of this body was solved by full CFD"
                           : is_bad(verdict.findings, {swings_of_falls})
-                              ? ": those of the solved falls are missed"
+                              ? ": those of the solved falls are not reproduced"
                               : fmt::format("; the moment is uncertain {}",
                                             error_in_words(tables, &ErrorShare::moment, 1.0))));
     if (tables.reynolds_numbers.back() < laminar_reynolds_number) {
-        put(false, "scatter by the wake's turbulence: the flow is laminar here, and has none");
+        put(false, "scatter from the wake's turbulence: the flow is laminar and has none");
     } else {
         put(uses.pictures && is_good(tables, &ErrorShare::turbulent_kinetic_energy),
-            fmt::format("scatter by the wake's turbulence, whose energy k is uncertain {}",
+            fmt::format("scatter from the wake's turbulence, whose energy k is uncertain {}",
                         error_in_words(tables, &ErrorShare::turbulent_kinetic_energy, 1.0)));
     }
     if (planned_share(tables.plan) <= mostly_planned) {
@@ -264,7 +264,7 @@ BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further) {
         findings.push_back({Grade::bad, "soundness", error});
     }
     judge_quality(findings, tables);
-    judge_error(findings, tables, "force", &ErrorShare::force, ", half of which a speed of descent has");
+    judge_error(findings, tables, "force", &ErrorShare::force, ", of which the descent speed has half");
     judge_error(findings, tables, "moment", &ErrorShare::moment, "");
     judge_error(findings, tables, "k", &ErrorShare::turbulent_kinetic_energy, "");
     judge_sources(findings, tables);
@@ -287,14 +287,14 @@ BakeVerdict judge_bake(const Body& body, const std::vector<Finding>& further) {
     sort_uses(verdict, body, {can_be_used, speeds, swings});
     if (!can_be_used) {
         verdict.grade = Grade::bad;
-        verdict.headline = is_bad(findings, {"soundness"}) ? "Not to be used: the file is unsound."
-                           : tables.quality == "smoke" ? "Good for trying the programs alone: not for falls."
-                                                       : "Not to be used as it is.";
+        verdict.headline = is_bad(findings, {"soundness"}) ? "Do not use it: the file is invalid."
+                           : tables.quality == "smoke" ? "Good only for testing the programs, not for falls."
+                                                       : "Do not use it as it is.";
     } else if (speeds && swings) {
         verdict.headline = "Good for metrics of falls, and for pictures.";
     } else {
         verdict.grade = Grade::limited;
-        verdict.headline = speeds ? "Good for pictures and for speeds of descent, not for how it swings."
+        verdict.headline = speeds ? "Good for pictures and descent speeds, not for oscillations."
                                   : "Good for pictures, not for metrics.";
     }
     return verdict;

@@ -76,9 +76,8 @@ ReportPart part_of_body(const Body& body) {
     }
     if (body.mass) {
         const MassProperties mass = mass_properties(body, *body.mass);
-        rows.push_back(
-            {"mass, where none is said", fmt::format("{:.4g} g, {:.4g} kg/m³ on average", 1e3 * mass.mass,
-                                                     mass.mass / body.moments.volume)});
+        rows.push_back({"default mass", fmt::format("{:.4g} g, {:.4g} kg/m³ on average", 1e3 * mass.mass,
+                                                    mass.mass / body.moments.volume)});
     }
     std::vector<std::string> numbers;
     for (const double number : tables.reynolds_numbers) numbers.push_back(in_plain_digits(number));
@@ -96,15 +95,14 @@ std::vector<nlohmann::json> error_blocks(const LoadTables& tables) {
         rows.push_back({name_of(share.source), per_cent(share.force), per_cent(share.moment),
                         per_cent(share.turbulent_kinetic_energy), per_cent(share.dissipation_rate)});
     }
-    if (rows.empty()) return {text_block("The file does not tell its errors by source.")};
+    if (rows.empty()) return {text_block("The file has no errors by source.")};
     const auto total = [&](double ErrorShare::*quantity) {
         return per_cent(total_error(tables.error_sources, quantity));
     };
     rows.push_back({"together", total(&ErrorShare::force), total(&ErrorShare::moment),
                     total(&ErrorShare::turbulent_kinetic_energy), total(&ErrorShare::dissipation_rate)});
     return {
-        text_block("Standard errors over the quantity, root mean squares over all directions and Reynolds "
-                   "numbers."),
+        text_block("Relative standard errors, root mean squares over all directions and Reynolds numbers."),
         table_block({"source", "force", "moment", "k", "epsilon"}, rows)};
 }
 
@@ -115,10 +113,9 @@ std::string tensor_in_words(const Matrix3d& tensor, const char* unit) {
 ReportPart part_of_rotation(const Body& body) {
     if (!body.dynamic) {
         return {"Dynamic coefficients",
-                {text_block("The file holds no dynamic coefficients, for no falls were solved. It is "
-                            "simulated with those that "
-                            "bodies have in common (docs/studies/falls). Quality "
-                            "standard solves falls and identifies its own.")}};
+                {text_block("The file has no dynamic coefficients, as no falls were solved. Simulations use "
+                            "the default coefficients (docs/studies/falls). Quality standard solves falls "
+                            "and identifies the body's own.")}};
     }
     const auto& [values, errors, densities] = *body.dynamic;
     Rows rows;
@@ -130,7 +127,7 @@ ReportPart part_of_rotation(const Body& body) {
         rows.push_back({tensor.title, tensor_in_words(values.*tensor.member, tensor.unit),
                         tensor_in_words(errors.*tensor.member, tensor.unit)});
     }
-    rows.push_back({"density of the falling body, over the fluid's", in_words(densities), "-"});
+    rows.push_back({"density of the falling body relative to the fluid", in_words(densities), "-"});
     return {"Dynamic coefficients",
             {text_block("From: " + values.origin),
              table_block({"coefficient (tensors: xx, yy, zz)", "value", "standard error"}, rows)}};
@@ -173,7 +170,7 @@ ReportPart part_of_cases(const LoadTables& tables) {
                         or_dash(one.final_residual, "{:.1g}"), fmt::format("{:.1f}", one.cpu_seconds)});
     }
     if (rows.empty()) {
-        part.blocks.push_back(text_block("The file does not say how its cases were solved."));
+        part.blocks.push_back(text_block("The file has no record of how its cases were solved."));
         return part;
     }
     double seconds = 0.0;
@@ -188,7 +185,7 @@ ReportPart part_of_cases(const LoadTables& tables) {
 }
 
 std::string joined(const std::set<std::string>& words) {
-    return words.empty() ? "not said" : fmt::format("{}", fmt::join(words, ", "));
+    return words.empty() ? "unknown" : fmt::format("{}", fmt::join(words, ", "));
 }
 
 ReportPart part_of_provenance(const std::filesystem::path& path, const Body& body) {
@@ -201,7 +198,7 @@ ReportPart part_of_provenance(const std::filesystem::path& path, const Body& bod
         if (!one.closure.empty()) closures.insert(one.closure);
         if (!one.mesh_remedy.empty()) remedies.insert(one.mesh_remedy);
     }
-    return {"Where it comes from",
+    return {"Provenance",
             {table_block(
                 {}, {{"file", path.filename().string()},
                      {"XXH3 128-bit hash", file_content_hash(path)},
@@ -220,7 +217,7 @@ std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body
     std::vector<nlohmann::json> convergence = error_blocks(*body.tables);
     convergence.insert(
         convergence.begin(),
-        picture_block("Drag and k over the meshes, drag over Reynolds numbers, errors by source",
+        picture_block("Drag and k against mesh, drag against Reynolds number, errors by source",
                       body_picture("convergence", body)));
     return {
         part_of_body(body),
@@ -242,15 +239,15 @@ std::vector<ReportPart> body_parts(const std::filesystem::path& file, const Body
 namespace fs = std::filesystem;
 
 constexpr const char* footer =
-    R"(One page that needs nothing else: on top what the bake is good for, what not, and why;
-then the body, polars with error bars, maps over all directions, convergence and errors
-by source, the dynamic coefficients, the cases, and where all comes from. Of
-the folder of cases, NAME.cases beside NAME.body.h5, it adds the meshes, y+, how the
-cases settled, and the solved falls beside the runtime's; what of it is missing, the
-page and a note say. Python's matplotlib and Jinja make it.
+    R"(The page is a single self-contained file. It begins with a verdict: what the bake is good
+for, what not, and why. Then it shows the body, polars with error bars, maps over all
+directions, convergence and errors by source, the dynamic coefficients, the cases, and the
+provenance. With the folder of cases, NAME.cases beside NAME.body.h5, it adds meshes, y+,
+the convergence of the cases, and falls by full CFD beside simulated ones. The page and a
+warning list what is missing. It needs Python's matplotlib and Jinja.
 
 JSON: output, body, verdict (grade: good, limited or bad; headline, good_for, not_for,
-findings), parts (titles), cases (the folder, or null), missing (what is not told).
+findings), parts (titles), cases (the folder, or null), missing (a list).
 
 Examples: samara report leaf.body.h5 -o leaf.html
           samara report leaf.body.h5 -o leaf.html --cases kept/leaf.cases)";
@@ -264,8 +261,7 @@ struct ReportOptions {
 Body read_bake(const std::string& file) {
     Body body = read_body_file(file);
     if (!body.tables) {
-        throw Error(
-            fmt::format("{}: has no tables, and a report is of a bake; make them with 'samara bake'", file));
+        throw Error(fmt::format("{}: has no tables to judge; make them with 'samara bake'", file));
     }
     return body;
 }
@@ -285,20 +281,22 @@ std::optional<fs::path> cases_of(const ReportOptions& options, bool can_read,
     if (fs::exists(folder / "plan.json")) {
         if (can_read) return folder;
         missing.push_back(fmt::format(
-            "{}: is read by the baking tools (build with SAMARA_BAKING=ON), which are not installed",
+            "{}: needs the baking tools; install the package samara-baking, or build with SAMARA_BAKING=ON",
             folder.string()));
         return std::nullopt;
     }
-    if (named) throw Error(fmt::format("{}: is no folder of cases: it has no plan.json", folder.string()));
+    if (named)
+        throw Error(
+            fmt::format("{}: is not a folder of cases (it has no plan.json); give --cases", folder.string()));
     missing.push_back(fmt::format(
-        "{}: is not there: without it no meshes, y+, histories and falls; --cases names another folder",
+        "{}: is missing, so the page lacks meshes, y+, histories and falls; give another folder with --cases",
         folder.string()));
     return std::nullopt;
 }
 
 nlohmann::json report(const ReportOptions& options, const CasesReader& read_cases, bool quiet) {
     if (fs::path(options.output).extension() != ".html") {
-        throw Error(fmt::format("{}: a report is a page; end the name in .html", options.output));
+        throw Error(fmt::format("{}: the output is a page; name it NAME.html", options.output));
     }
     const Body body = read_bake(options.input);
     std::vector<std::string> missing;
@@ -313,12 +311,12 @@ nlohmann::json report(const ReportOptions& options, const CasesReader& read_case
     std::vector<ReportPart> parts = body_parts(options.input, body);
     // The parts about the cases stand before the provenance.
     parts.insert(parts.end() - 1, cases.parts.begin(), cases.parts.end());
-    if (!missing.empty()) parts.push_back({"What is missing here", {{{"list", missing}}}});
+    if (!missing.empty()) parts.push_back({"Missing parts", {{{"list", missing}}}});
     const BakeVerdict verdict = judge_bake(body, cases.findings);
     const std::string below = fmt::format(
         "A bake of quality {} at Reynolds number {}. {}", body.tables->quality,
         fmt::join(body.tables->reynolds_numbers, ", "), fs::path(options.input).filename().string());
-    for (const std::string& line : missing) print_note("samara report: note: {}\n", line);
+    for (const std::string& line : missing) print_note("samara report: warning: {}\n", line);
     if (!quiet) print_result("{}: {}", options.output, as_text(verdict));
     nlohmann::json result = {
         {"output", options.output},         {"body", body.name}, {"verdict", as_json(verdict)},
@@ -338,12 +336,12 @@ nlohmann::json report(const ReportOptions& options, const CasesReader& read_case
 }  // namespace
 
 int run_report(int argc, const char* const* argv, const CasesReader& read_cases) {
-    Arguments arguments("samara report", "Judges a bake, and shows why, in one page.");
+    Arguments arguments("samara report", "Judges the accuracy of a bake in one HTML page.");
     ReportOptions options;
     arguments.positional("BODY", options.input, "body file with tables (.body.h5), from 'samara bake'");
     arguments.required_output_option("-o,--output", options.output, "page to write, NAME.html");
     arguments.option("--cases", options.cases,
-                     "the folder of the bake's cases; NAME.cases beside the body file");
+                     "folder of the bake's cases; by default NAME.cases beside the body file");
     arguments.footer(footer);
     return run_program(argc, argv, arguments, [&] { return report(options, read_cases, arguments.json()); });
 }

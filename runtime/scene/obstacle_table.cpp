@@ -31,7 +31,7 @@ Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
             "shape", fmt::format("must be a mesh, .stl, .obj or .glb, not '{}'", file.filename().string()));
     }
     if (const std::string error = reading_error(file); !error.empty()) {
-        throw table.error("shape", fmt::format("cannot be had: {}: {}", file.string(), error));
+        throw table.error("shape", fmt::format("cannot be read: {}: {}", file.string(), error));
     }
     try {
         Surface surface = mended(extension == ".stl"   ? read_stl_file(file)
@@ -40,7 +40,8 @@ Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
         require_solid_surface(surface);
         return surface;
     } catch (const Error& error) {
-        throw table.error("shape", fmt::format("is no sound surface: {}: {}", file.string(), error.what()));
+        throw table.error("shape",
+                          fmt::format("is not a valid surface: {}: {}", file.string(), error.what()));
     }
 }
 
@@ -53,7 +54,7 @@ std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place)
     std::vector<ObstacleKey> keys;
     for (TomlTable& each : table.tables("keys")) {
         const auto time = each.number("time");
-        if (!time) throw each.error("time", "is missing; give the second at which it is there");
+        if (!time) throw each.error("time", "is missing; give the time of the key in seconds");
         keys.push_back({read_place(each, place), *time});
         each.finish();
     }

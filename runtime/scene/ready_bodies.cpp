@@ -71,8 +71,8 @@ fs::path ready_body_file(const std::string& name) {
         if (body.name == name) return body.file;
         names.push_back(body.name);
     }
-    throw Error(fmt::format("there is no ready-baked body '{}' in {}; there are: {}", name, folder.string(),
-                            fmt::join(names, ", ")));
+    throw Error(fmt::format("there is no ready-baked body '{}' in {}; choose one of {}", name,
+                            folder.string(), fmt::join(names, ", ")));
 }
 
 }  // namespace samara

@@ -67,15 +67,15 @@ std::string in_words(const RunNeeds& needs) {
 
 void require_room(const RunNeeds& needs, const std::string& scene, const std::filesystem::path& output) {
     require_memory(
-        needs.memory, scene + ": its flight",
+        needs.memory, scene + ": its simulation",
         needs.memory_for_copies ? "lower the count or --runs" : "lower the duration or frame_rate");
     std::error_code unknown;
     const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
     const auto space = std::filesystem::space(folder, unknown);
     if (unknown || needs.disk <= static_cast<double>(space.available)) return;
     throw Error(
-        fmt::format("{}: there is no room for its {:.3g} GB: {:.3g} GB are free; lower the duration, "
-                    "frame_rate, count or runs, or write elsewhere",
+        fmt::format("{}: needs {:.3g} GB, but {:.3g} GB are free on its disk; lower the duration, "
+                    "frame_rate, count or runs, or write to another disk",
                     output.string(), 1e-9 * needs.disk, 1e-9 * static_cast<double>(space.available)));
 }
 

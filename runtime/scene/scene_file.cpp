@@ -36,11 +36,11 @@ Fluid read_fluid(TomlTable& table) {
     const auto density = table.number("density");
     const auto viscosity = table.number("viscosity");
     if (preset && (density || viscosity)) {
-        throw table.error("preset", "stands beside density or viscosity; give the preset or both of these");
+        throw table.error("preset", "excludes density and viscosity; give the preset or both of these");
     }
     if (density.has_value() != viscosity.has_value()) {
         throw table.error(density ? "density" : "viscosity",
-                          "stands alone; give density and viscosity, or a preset");
+                          "is not enough; give density and viscosity, or a preset");
     }
     Fluid fluid = *fluid_preset("water");
     if (preset) {
@@ -115,7 +115,9 @@ void read_models(TomlTable& table, SceneBody& body) {
         body.dynamic);
     body.table_reynolds_number = table.number("table_reynolds_number");
     if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
-        if (body.loads == Loads::none) throw table.error("patches", "is for loads, of which there are none");
+        if (body.loads == Loads::none)
+            throw table.error("patches",
+                              "applies to loads, but the loads are " none "; remove it or change loads");
         body.patches = static_cast<int>(*patches);
     }
     body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
@@ -123,7 +125,7 @@ void read_models(TomlTable& table, SceneBody& body) {
     for (const char* key :
          {"loads", "added_mass", "dynamic_coefficients", "table_reynolds_number", "turbulence"}) {
         if (table.node(key) == nullptr) continue;
-        throw table.error(key, R"(stands beside models = "auto", which chooses it; give one of the two)");
+        throw table.error(key, R"(is chosen by models = "auto"; give one of the two)");
     }
 }
 
@@ -132,7 +134,7 @@ CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
     for (const char* key :
          {"drag_coefficient", "lift_coefficient", "reference_area", "normal", "center_of_pressure"}) {
         if (table.node(key) != nullptr && loads != Loads::coefficients) {
-            throw table.error(key, R"(is for loads = "coefficients" alone; remove it or change loads)");
+            throw table.error(key, R"(applies only to loads = "coefficients"; remove it or change loads)");
         }
     }
     assign(coefficients.drag_coefficient, table.number("drag_coefficient"));
@@ -159,9 +161,9 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
     const auto dissipation = table.number("dissipation_rate");
     const bool constant = body.turbulence == Turbulence::constant;
     if (constant != energy.has_value() || constant != dissipation.has_value()) {
-        throw table.error("turbulence",
-                          constant ? "is constant: give turbulent_kinetic_energy and dissipation_rate"
-                                   : R"(must be "constant" where its values are given)");
+        throw table.error("turbulence", constant ? "is " constant
+                                                   "; give turbulent_kinetic_energy and dissipation_rate"
+                                                 : R"(must be "constant" if its values are given)");
     }
     assign(body.turbulent_kinetic_energy, energy);
     assign(body.dissipation_rate, dissipation);
@@ -172,7 +174,8 @@ void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody
     assign(body.position, position);
     if (auto emitter = table.table("emitter")) {
         if (position) {
-            throw table.error("position", "stands beside emitter, which says where bodies start; give one");
+            throw table.error("position",
+                              "excludes emitter, which defines where bodies start; give one of the two");
         }
         body.emitter = std::make_shared<const Emitter>(read_emitter(*emitter, folder));
     }
@@ -201,12 +204,12 @@ std::filesystem::path shape_file(const TomlTable& table, const std::string& shap
         try {
             return ready_body_file(shape.substr(ready_body_prefix.size()));
         } catch (const Error& error) {
-            throw table.error("shape", fmt::format("cannot be had: {}", error.what()));
+            throw table.error("shape", fmt::format("cannot be read: {}", error.what()));
         }
     }
     const std::filesystem::path file = folder / shape;  // an absolute path stays as it is
     if (const std::string error = reading_error(file); !error.empty()) {
-        throw table.error("shape", fmt::format("cannot be had: {}: {}", file.string(), error));
+        throw table.error("shape", fmt::format("cannot be read: {}: {}", file.string(), error));
     }
     return file;
 }
@@ -217,19 +220,19 @@ std::shared_ptr<const DisplayMesh> read_display(TomlTable& table, const std::fil
     const auto name = table.text("look");
     const auto scale = table.number("look_scale", positive_number);
     if (!name) {
-        if (scale) throw table.error("look_scale", "is of a look; give one, or remove it");
+        if (scale) throw table.error("look_scale", "needs a look; give one, or remove it");
         return nullptr;
     }
     const std::filesystem::path file = folder / *name;
     if (const std::string error = reading_error(file); !error.empty()) {
-        throw table.error("look", fmt::format("cannot be had: {}: {}", file.string(), error));
+        throw table.error("look", fmt::format("cannot be read: {}: {}", file.string(), error));
     }
     try {
         DisplayMesh display = read_display_mesh_file(file);
         for (Vector3d& place : display.positions) place *= scale.value_or(shape_scale);
         return std::make_shared<const DisplayMesh>(std::move(display));
     } catch (const Error& error) {
-        throw table.error("look", fmt::format("cannot be had: {}", error.what()));
+        throw table.error("look", fmt::format("cannot be read: {}", error.what()));
     }
 }
 
@@ -242,13 +245,14 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     const auto shape = table.text("shape");
     if (!shape)
         throw table.error(
-            "shape", "is missing; give a shape file, a .body.h5 or a ready-baked body, as \"samara:leaf\"");
+            "shape",
+            "is missing; give a shape file, a .body.h5 or a ready-baked body, such as \"samara:leaf\"");
     body.shape = shape_file(table, *shape, folder);
     assign(body.scale, table.number("scale", positive_number));
     body.display = read_display(table, folder, body.scale);
     body.mass = read_mass(table);
     if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
-        throw table.error("density", "is missing; give it, or mass");
+        throw table.error("density", "is missing; give density or mass");
     }
     read_start(table, folder, body);
     read_models(table, body);
@@ -269,16 +273,17 @@ void read_step(TomlTable& table, Scene& scene) {
         throw table.error("step", "must be a number of seconds, or \"auto\"");
     }
     const auto tolerance = table.number(
-        "step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1: a share of the distance moved"});
+        "step_tolerance", {1e-6, 0.1, "must lie between 1e-6 and 0.1, relative to the distance moved"});
     if (tolerance && !scene.step_auto) {
-        throw table.error("step_tolerance", "is for step = \"auto\"; remove it, or set step so");
+        throw table.error("step_tolerance",
+                          "applies only to step = \"auto\"; remove it, or set step = \"auto\"");
     }
     assign(scene.step_tolerance, tolerance);
 }
 
 void read_settings(TomlTable& table, Scene& scene) {
     const auto duration = table.number("duration", positive_number);
-    if (!duration) throw table.error("duration", "is missing; give the seconds to simulate");
+    if (!duration) throw table.error("duration", "is missing; give the time to simulate in seconds");
     scene.duration = *duration;
     read_step(table, scene);
     assign(scene.frame_rate, table.number("frame_rate", positive_number));
@@ -290,7 +295,7 @@ void read_settings(TomlTable& table, Scene& scene) {
     assign(scene.bodies_collide, table.boolean("bodies_meet"));  // its name in older scenes
     assign(scene.bodies_collide, table.boolean("bodies_collide"));
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
-        throw table.error("duration", "makes more than 1e8 frames or 1e10 steps; is a unit wrong?");
+        throw table.error("duration", "gives more than 1e8 frames or 1e10 steps; check the units");
     }
     table.finish();
 }
@@ -302,7 +307,7 @@ toml::table parsed_scene(const Scene& scene) {
     } catch (const Error& error) {
         const std::filesystem::path ending = scene.file.extension();
         if (ending.empty() || ending == ".toml") throw;
-        throw Error(fmt::format("{}; is this a scene file (.toml)?", error.what()));
+        throw Error(fmt::format("{}; give a scene file (.toml)", error.what()));
     }
 }
 
@@ -320,7 +325,7 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     const toml::table document = parsed_scene(scene);
     TomlTable top(document, name, "the scene");
     auto settings = top.table("scene");
-    if (!settings) throw top.error("[scene]", "is missing; it holds at least the duration");
+    if (!settings) throw top.error("[scene]", "is missing; give it with at least the duration");
     read_settings(*settings, scene);
     if (auto fluid = top.table("fluid")) scene.fluid = read_fluid(*fluid);
     require_rules(top, broken_rule(scene.fluid));
@@ -330,7 +335,8 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
     for (TomlTable& table : top.tables("body")) {
         scene.bodies.push_back(read_body(table, folder));
         if (!names.insert(scene.bodies.back().name).second) {
-            throw table.error("name", fmt::format("'{}' is taken by another body", scene.bodies.back().name));
+            throw table.error("name", fmt::format("is '{}', as of another body; choose another name",
+                                                  scene.bodies.back().name));
         }
     }
     std::set<std::string> obstacle_names;
@@ -339,10 +345,10 @@ Scene read_scene_text(std::string text, const std::string& name, const std::file
         const std::string& obstacle = scene.obstacles.back().name;
         if (obstacle_names.insert(obstacle).second) continue;
         throw table.error("name",
-                          fmt::format("'{}' is taken by another obstacle; give this one another", obstacle));
+                          fmt::format("is '{}', as of another obstacle; choose another name", obstacle));
     }
     top.finish();
-    if (scene.bodies.empty()) throw Error(fmt::format("{}: there is no [[body]] in the scene", name));
+    if (scene.bodies.empty()) throw Error(fmt::format("{}: has no [[body]]; add one", name));
     return scene;
 }
 

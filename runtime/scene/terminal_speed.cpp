@@ -50,8 +50,8 @@ void require_sizes_in_tables(const Scene& scene, const SceneBody& scene_body, co
     if (!too_large && scene_body.smallest_size >= least) return;
     const double size = too_large ? scene_body.largest_size : scene_body.smallest_size;
     throw Error(fmt::format(
-        "{}: body '{}': of spread.size {:g} it falls at a Reynolds number of about {:.3g}, and its tables go "
-        "from {:.3g} to {:.3g}; keep the sizes within {:.3g} and {:.3g}, or bake this scene",
+        "{}: body '{}': with spread.size {:g} it falls at a Reynolds number of about {:.3g}, but its tables "
+        "range from {:.3g} to {:.3g}; keep the sizes within {:.3g} and {:.3g}, or bake this scene",
         scene.file.string(), scene_body.name, size, own * std::pow(size, 1.5), lowest, highest, least, most));
 }
 

@@ -44,8 +44,8 @@ WindProfile read_profile(TomlTable& table, double ground) {
     const bool logarithmic = profile.law == Law::logarithmic;
     const char* foreign = logarithmic ? "exponent" : "roughness";
     if (table.node(foreign) != nullptr) {
-        throw table.error(
-            foreign, logarithmic ? R"(is for law = "power"; remove it)" : R"(is for law = "log"; remove it)");
+        throw table.error(foreign, logarithmic ? R"(applies only to law = "power"; remove it)"
+                                               : R"(applies only to law = "log"; remove it)");
     }
     if (logarithmic) {
         profile.roughness = table.number("roughness", positive_number).value_or(profile.roughness);
@@ -64,8 +64,9 @@ WindGusts read_gusts(TomlTable& table) {
     gusts.spectrum = choice<Spectrum>(table, "spectrum",
                                       {{"von-karman", Spectrum::von_karman}, {"kaimal", Spectrum::kaimal}},
                                       gusts.spectrum);
-    gusts.rms = required(table, "rms", non_negative_number, "is missing; give the gusts' m/s");
-    gusts.length = required(table, "length", positive_number, "is missing; give the gusts' size, m");
+    gusts.rms = required(table, "rms", non_negative_number, "is missing; give the rms of the gusts in m/s");
+    gusts.length =
+        required(table, "length", positive_number, "is missing; give the length of the gusts in m");
     if (const auto seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max())) {
         gusts.seed = static_cast<std::uint64_t>(*seed);
     }
@@ -82,7 +83,7 @@ WindVortex read_vortex(TomlTable& table) {
     vortex.position = table.vector("position").value_or(vortex.position);
     vortex.axis = direction(table, "axis", table.vector("axis").value_or(vortex.axis));
     vortex.circulation = required(table, "circulation", any_number, "is missing; give it in m^2/s");
-    vortex.core = required(table, "core", positive_number, "is missing; give the core's radius, m");
+    vortex.core = required(table, "core", positive_number, "is missing; give the radius of the core in m");
     vortex.velocity = table.vector("velocity").value_or(vortex.velocity);
     table.finish();
     return vortex;
@@ -90,12 +91,13 @@ WindVortex read_vortex(TomlTable& table) {
 
 WindFan read_fan(TomlTable& table) {
     WindFan fan;
-    fan.position = required_vector(table, "position", "is missing; give the middle of the fan");
-    fan.direction =
-        direction(table, "direction",
-                  required_vector(table, "direction", "is missing; give the vector that it blows along"));
+    fan.position = required_vector(table, "position", "is missing; give the centre of the fan in m");
+    fan.direction = direction(
+        table, "direction",
+        required_vector(table, "direction", "is missing; give the direction of the jet as a vector"));
     fan.diameter = table.number("diameter", positive_number).value_or(fan.diameter);
-    fan.speed = required(table, "speed", non_negative_number, "is missing; give the air's m/s at the fan");
+    fan.speed = required(table, "speed", non_negative_number,
+                         "is missing; give the speed of the air at the fan in m/s");
     table.finish();
     return fan;
 }
@@ -114,10 +116,9 @@ WindFile read_file(TomlTable& table, const std::filesystem::path& folder, double
     const bool is_steady = file.grid->frames == 1;
     const double file_end = file.start + file.grid->duration();
     if (!is_steady && !file.repeats && file_end < end * (1.0 - 1e-9)) {
-        throw table.error("path",
-                          fmt::format("holds the wind until {:g} s, and the scene ends at {:g} s; give "
-                                      "repeat = true, a shorter duration or a longer file",
-                                      file_end, end));
+        throw table.error("path", fmt::format("holds the wind until {:g} s, but the scene ends at {:g} s; "
+                                              "give repeat = true, a shorter duration or a longer file",
+                                              file_end, end));
     }
     table.finish();
     return file;
@@ -131,10 +132,10 @@ Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double gro
     if (auto profile = table.table("profile")) {
         wind.profile = read_profile(*profile, ground);
         if (wind.velocity.isZero(0.0)) {
-            throw table.error("velocity", "is missing; a profile is that of a velocity");
+            throw table.error("velocity", "is missing; a profile needs a velocity");
         }
         if (wind.velocity.z() != 0.0) {
-            throw table.error("velocity", "must be level (its z 0) where it has a profile over the ground");
+            throw table.error("velocity", "must be horizontal (z = 0) if it has a profile");
         }
     }
     if (auto gusts = table.table("gusts")) wind.gusts = read_gusts(*gusts);

@@ -128,10 +128,9 @@ TEST_F(Convert, SaysHowFarItIs) {
 TEST_F(Convert, NamesTheFirstCaseThatIsNotSolved) {
     std::filesystem::remove(folder_.case_path(3) / "provenance.json");
     std::filesystem::remove(folder_.case_path(5) / "provenance.json");
-    EXPECT_EQ(error(),
-              folder_.path().string() +
-                  ": the case case_03 is not solved (2 of 12 are not); run 'samara bake' again, which goes "
-                  "on where it stopped");
+    EXPECT_EQ(error(), folder_.path().string() +
+                           ": the case case_03 is not solved (2 of 12 are not); run 'samara bake' again, "
+                           "which continues where it stopped");
 }
 
 TEST_F(Convert, FillsADirectionThatCouldNotBeSolvedAndSaysSo) {
@@ -178,7 +177,7 @@ TEST_F(Convert, RejectsAFallThatIsNeitherSolvedNorFailed) {
     EXPECT_EQ(
         error(),
         folder_.path().string() +
-            ": the fall fall_01 is not solved; run 'samara bake' again, which goes on where it stopped");
+            ": the fall fall_01 is not solved; run 'samara bake' again, which continues where it stopped");
 }
 
 TEST_F(Convert, RejectsAFallWithTheNameOfACase) {
@@ -298,7 +297,7 @@ TEST_F(Convert, RejectsFieldsAndHistoriesOfDifferentRuns) {
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 1\n", i);
     folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat", rows);
     EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
-    EXPECT_THAT(error(), HasSubstr("they are of different runs"));
+    EXPECT_THAT(error(), HasSubstr("they are from different runs"));
 }
 
 TEST_F(Convert, RejectsCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
@@ -324,7 +323,7 @@ TEST_F(Convert, RejectsMeshesAndFieldsThatDoNotBelongTogether) {
 
 TEST_F(Convert, RejectsAPlanOfAnotherBody) {
     write_body_file(folder_.path() / "body.body.h5", test::box_body(Vector3d(0.01, 0.02, 0.05)));
-    EXPECT_THAT(error(), HasSubstr("plan.json and body.body.h5 are of different bodies"));
+    EXPECT_THAT(error(), HasSubstr("plan.json and body.body.h5 belong to different bodies"));
 }
 
 TEST_F(Convert, NamesADirectionThatThePlanForgot) {
@@ -342,9 +341,8 @@ TEST_F(Convert, RejectsDamagedPlansInOneLine) {
         folder_.write("plan.json", text);
         std::string message = error();
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-        EXPECT_THAT(
-            message,
-            EndsWith("make the cases again with 'samara bake', or, where the plan is yours, correct it"));
+        EXPECT_THAT(message,
+                    EndsWith("make the cases again with 'samara bake', or correct the plan if you wrote it"));
         return message;
     };
     const auto changed = [&](const std::string& entry, const nlohmann::json& value) {
@@ -352,15 +350,16 @@ TEST_F(Convert, RejectsDamagedPlansInOneLine) {
         content[nlohmann::json::json_pointer(entry)] = value;
         return content.dump();
     };
-    EXPECT_THAT(error_of(plan.substr(0, 100)), HasSubstr("plan.json: is no JSON ("));
+    EXPECT_THAT(error_of(plan.substr(0, 100)), HasSubstr("plan.json: is not valid JSON ("));
     EXPECT_THAT(error_of("{}"), HasSubstr("an entry is missing or of the wrong type"));
     EXPECT_THAT(error_of(changed("/quality", 3)), HasSubstr("an entry is missing or of the wrong type"));
     EXPECT_THAT(error_of(changed("/subdivisions", 0)), HasSubstr("'subdivisions' is not from 1 to 1024"));
     EXPECT_THAT(error_of(changed("/reference_length", -1)), HasSubstr("'reference_length' is not positive"));
-    EXPECT_THAT(error_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is no rotation"));
+    EXPECT_THAT(error_of(changed("/axes/0/0", 2)), HasSubstr("'axes' is not a rotation"));
     EXPECT_THAT(error_of(changed("/cases", nlohmann::json::array())), HasSubstr("'cases' is empty"));
     EXPECT_THAT(error_of(changed("/cases/1/name", "case_00")), HasSubstr("two cases are named case_00"));
-    EXPECT_THAT(error_of(changed("/cases/1/direction", {1, 1, 0})), HasSubstr("case_01 is no unit vector"));
+    EXPECT_THAT(error_of(changed("/cases/1/direction", {1, 1, 0})),
+                HasSubstr("case_01 is not a unit vector"));
     EXPECT_THAT(error_of(changed("/cases/1/reynolds_number", 0)), HasSubstr("case_01 is not positive"));
 }
 
@@ -369,8 +368,8 @@ TEST_F(Convert, ReadsThroughNoLinkOutOfTheFolderAndWaitsForNoPipe) {
     const std::filesystem::path force = folder_.case_path(0) / "postProcessing/forces/0/force.dat";
     std::filesystem::rename(force, elsewhere / "force.dat");
     std::filesystem::create_symlink(elsewhere / "force.dat", force);
-    EXPECT_EQ(error(), force.string() + ": is a link that leads out of " + folder_.path().string() +
-                           ", and is not followed; put there what it leads to, or remove it");
+    EXPECT_EQ(error(), force.string() + ": is a link to outside of " + folder_.path().string() +
+                           ", which is not followed; replace it by a copy, or remove it");
     std::filesystem::remove(force);
     ASSERT_EQ(::mkfifo(force.c_str(), 0600), 0);
     EXPECT_EQ(error(), force.string() + ": is neither a file nor a folder; remove it");
@@ -384,7 +383,7 @@ TEST_F(Convert, ReadsNoFolderBesideTheCases) {
     for (const char* name : {"../case_00", "/tmp", ""}) {
         for (const char* key : {"name", "mesh"}) {
             folder_.change_plan([&](nlohmann::json& plan) { plan["cases"][0][key] = name; });
-            EXPECT_THAT(error(), HasSubstr("' is no name of a folder beside plan.json"));
+            EXPECT_THAT(error(), HasSubstr("' is not the name of a folder beside plan.json"));
             folder_.change_plan([&](nlohmann::json& plan) { plan["cases"][0][key] = "case_00"; });
         }
     }
@@ -488,12 +487,11 @@ TEST_F(ConvertOfAUsersCases, SaysWhichDirectionTheirFlowHas) {
     set_up("uniform (3 0 0)", "nu 6e-3", "rhoInf 5");
     EXPECT_THAT(
         error(),
-        HasSubstr("case_00: the flow has the opposite direction: along [1, 0, 0], and so the body along [-1, "
-                  "0, 0], "
-                  "but plan.json has the 'direction' [1, 0, 0], which is that of the body's velocity"));
+        HasSubstr("case_00: the flow has the opposite direction: along [1, 0, 0], so the body moves along "
+                  "[-1, 0, 0], but plan.json has the 'direction' [1, 0, 0] of the body's velocity"));
     set_up("uniform (0 -3 0)", "nu 6e-3", "rhoInf 5");
     EXPECT_THAT(error(),
-                HasSubstr("the flow has the direction [0, -1, 0], and so the body along [0, 1, 0], but"));
+                HasSubstr("the flow has the direction [0, -1, 0], so the body moves along [0, 1, 0], but"));
 }
 
 TEST_F(ConvertOfAUsersCases, HoldsNothingAgainstWhatTheyDoNotSayPlainly) {
@@ -583,7 +581,7 @@ TEST_F(ConvertProgram, AnswersForeignFoldersWithOneLine) {
     for (const std::string& folder : {scratch_.path().string(), std::string("/no/such/folder")}) {
         const auto [status, text] = run({folder, "-o", output});
         EXPECT_EQ(status, 1);
-        EXPECT_THAT(text, testing::StartsWith("samara convert: " + folder + ": is no folder"));
+        EXPECT_THAT(text, testing::StartsWith("samara convert: " + folder + ": is not a folder"));
         EXPECT_THAT(text, EndsWith("give the folder NAME.cases that 'samara bake' made\n"));
     }
     EXPECT_FALSE(std::filesystem::exists(output));

@@ -247,7 +247,7 @@ def unknown_numbers(result, name=""):
 
 def error_of(command, status, output, said):
     """Returns the error in how a command ended; None where it ended properly."""
-    notes = [line for line in said.splitlines() if ": note: " not in line and not PROGRESS.match(line)]
+    notes = [line for line in said.splitlines() if ": warning: " not in line and not PROGRESS.match(line)]
     if status == 0:
         try:
             missing = unknown_numbers(json.loads(output))

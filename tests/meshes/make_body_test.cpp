@@ -327,7 +327,7 @@ TEST(MakeBody, NamesTheUnitWhereNoBodyIsSoLarge) {
     const test::TemporaryFolder folder;
     test::write_stl(folder / "a.stl", test::box(Vector3d::Constant(3e9), 1));
     EXPECT_THAT(test::error_of([&] { make_body(folder / "a.stl"); }),
-                AllOf(HasSubstr("a.stl: "), HasSubstr("no body's size"), HasSubstr("--scale")));
+                AllOf(HasSubstr("a.stl: "), HasSubstr("which is too large"), HasSubstr("--scale")));
     MeshOptions options;
     options.scale = 1e-9;
     EXPECT_NEAR(make_body(folder / "a.stl", options).moments.volume, 27.0, 1e-9);
@@ -395,12 +395,12 @@ TEST(MakeBody, NamesWhatIsWrongWithAFile) {
     EXPECT_THAT(test::error_of([] { make_body("nowhere/missing.stl"); }),
                 HasSubstr("missing.stl: does not exist"));
     EXPECT_THAT(test::error_of([] { make_body(std::filesystem::temp_directory_path() / "x.blend"); }),
-                HasSubstr("is of no known format; give a .geo"));
+                HasSubstr("has an unknown format; give a .geo"));
     EXPECT_THAT(error_of_text("empty.stl", ""), HasSubstr("is empty"));
-    EXPECT_THAT(error_of_text("words.stl", "these are no triangles"), HasSubstr("is no STL file"));
+    EXPECT_THAT(error_of_text("words.stl", "these are no triangles"), HasSubstr("is not an STL file"));
     EXPECT_THAT(
         error_of_text("cut.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"),
-        HasSubstr("is cut short within a face at line 5"));
+        HasSubstr("is truncated within a face at line 5"));
     EXPECT_THAT(error_of_text("word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n"),
                 HasSubstr("line 4: 'vertex' needs three numbers, not 'zero'"));
     EXPECT_THAT(error_of_text("none.obj", "# nothing\n"), HasSubstr("holds no triangles"));

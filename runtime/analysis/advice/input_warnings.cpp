@@ -39,13 +39,12 @@ const char* in_words(ScaleRemedy remedy) {
 
 std::string length_warning(double length, const std::optional<double>& reynolds_number, ScaleRemedy remedy) {
     if (length < shortest) {
-        return fmt::format("{:.2g} m long: was its shape scaled twice, or is it in another unit than metres?",
-                           length);
+        return fmt::format("{:.2g} m long: check that its shape is in metres and scaled only once", length);
     }
     const bool fast = reynolds_number && *reynolds_number > most_reynolds;
     if (length <= longest && !fast) return {};
     return fmt::format(
-        "{:.3g} m long{}: is its shape in millimetres? then {}", length,
+        "{:.3g} m long{}: if its shape is in millimetres, {}", length,
         fast ? fmt::format(" and falls at a Reynolds number of about {:.1g}", *reynolds_number) : "",
         in_words(remedy));
 }
@@ -53,12 +52,12 @@ std::string length_warning(double length, const std::optional<double>& reynolds_
 std::string density_warning(double density) {
     if (density > largest_density) {
         return fmt::format(
-            "a density of {:.3g} kg/m^3, above that of any metal: is its mass in grams, or its shape in "
-            "another unit than metres?",
+            "a density of {:.3g} kg/m^3, above that of any metal: check that its mass is in kg and its shape "
+            "in metres",
             density);
     }
     if (density >= least_density) return {};
-    return fmt::format("a density of {:.3g} kg/m^3: is that in g/cm^3? then it is {:.4g} kg/m^3", density,
+    return fmt::format("a density of {:.3g} kg/m^3: if it is in g/cm^3, give {:.4g}", density,
                        density * gram_in_cubic_centimetre);
 }
 
@@ -108,9 +107,8 @@ DensityWarning density_warning(const SceneBody& scene_body, const Body& body, co
     const double ratio = beyond(body.dynamic->densities, density);
     if (ratio <= negligible) return {};
     return {ratio,
-            fmt::format("{:.3g} times as dense as the fluid, with coefficients identified at {} times: "
-                        "swings may be wrong; 'samara bake --density A --density-to B' spans "
-                        "a range",
+            fmt::format("{:.3g} times as dense as the fluid, but its coefficients were identified at {} "
+                        "times: swings may be wrong; 'samara bake --density A --density-to B' covers a range",
                         density, in_words(body.dynamic->densities))};
 }
 

@@ -86,7 +86,7 @@ class Advisor {
             time_step(advice_.full);
         }
         if (!is_long_enough()) {
-            advice_.notes.emplace_back("the fall is too short to be judged: every part is kept");
+            advice_.notes.emplace_back("the fall is too short to judge: all models are kept");
             advice_.recommended = advice_.full;
             return finished();
         }
@@ -116,12 +116,13 @@ class Advisor {
                                                   ? "without"
                                                   : "with a tenth of the terminal speed (rms)"));
             }
-            advice_.notes.push_back(fmt::format("not known before a bake: {}", fmt::join(unknown, "; ")));
+            advice_.notes.push_back(fmt::format("unknown before a bake: {}", fmt::join(unknown, "; ")));
             return guessed;
         }
         ModelSet models = asked;
         if (models.turbulence == Turbulence::table && is_laminar(*tables)) {
-            advice_.notes.emplace_back("no turbulence: the table's is zero, the flow is laminar");
+            advice_.notes.emplace_back(
+                "no turbulence: the tables' turbulence is zero, as the flow is laminar");
             models.turbulence = Turbulence::none;
         }
         return models;
@@ -142,7 +143,7 @@ class Advisor {
         const double highest = simulated.highest_reynolds_number;
         if (full_.turbulence == Turbulence::table && highest < laminar_reynolds_number) {
             advice_.notes.push_back(fmt::format(
-                "no turbulence: the Reynolds number stays at {:.3g} or below, the flow is laminar", highest));
+                "no turbulence: the Reynolds number is {:.3g} at most, and the flow is laminar", highest));
             full_.turbulence = Turbulence::none;
             (void)falls_of(full_, first_falls());
         }

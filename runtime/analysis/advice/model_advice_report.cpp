@@ -83,7 +83,7 @@ std::string cell(const MetricEffect& metric) {
 
 std::string row(const std::string& name, const ModelEffect& one) {
     std::string text = fmt::format("  {:<37}", name);
-    if (!one.flies) return text + "leaves the range of numbers\n";
+    if (!one.flies) return text + "diverges\n";
     if (one.effect.falls == 0) return text + "not simulated\n";
     for (const Metric metric : advised_metrics)
         text += fmt::format("{:<17}", cell(one.effect.metrics[metric]));
@@ -118,13 +118,13 @@ std::string fullest_in_words(const ModelEffect& full) {
 
 std::string needs_in_words(const ModelCost& cost, bool one_direction) {
     std::vector<std::string> words;
-    if (cost.falls) words.emplace_back("free falls in full CFD");
+    if (cost.falls) words.emplace_back("free falls by full CFD");
     if (cost.tables) {
         words.push_back(fmt::format("OpenFOAM cases{}{}", one_direction ? " in one direction" : "",
                                     cost.reynolds_numbers ? " at several Reynolds numbers" : ""));
     }
     if (cost.kirchhoff) words.emplace_back("the Kirchhoff tensor");
-    if (words.empty()) return "the shape, and the numbers above";
+    if (words.empty()) return "the shape and the numbers above";
     return fmt::format("{}", fmt::join(words, "; "));
 }
 

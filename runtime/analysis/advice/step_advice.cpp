@@ -319,7 +319,7 @@ std::string as_text(const StepAdvice& advice) {
     const std::string missed =
         advice.is_within ? "" : fmt::format(", not within {:.2g} %", 100.0 * advice.tolerance);
     const std::string limit =
-        advice.limit.empty() ? "the longest there is" : fmt::format("{} allows no longer one", advice.limit);
+        advice.limit.empty() ? "the longest possible" : fmt::format("{} allows no longer step", advice.limit);
     return fmt::format("{:.4g} ms, off by {:.2g} % of the distance covered{}; {}", 1e3 * advice.step,
                        100.0 * advice.error, missed, limit);
 }

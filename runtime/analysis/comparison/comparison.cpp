@@ -30,8 +30,8 @@ void note_lengths(Notes& notes, const Comparison& all) {
     const double b = all.reference_lengths.shortest;
     if (std::abs(a - b) <= same_length * std::max(a, b)) return;
     notes.push_back(
-        fmt::format("the motion's falls last {:.4g} s or more, the reference's {:.4g} s: only what both "
-                    "cover is compared",
+        fmt::format("the motion's falls last {:.4g} s or more, the reference's {:.4g} s: only the common "
+                    "part is compared",
                     a, b));
 }
 
@@ -44,9 +44,9 @@ struct SideNote {
 std::vector<SideNote> notes_of_side(const char* which, const FallChoice& choice, const FallSet& set) {
     std::vector<SideNote> notes;
     if (set.distinct < set.falls) {
-        notes.push_back({fmt::format("of the {}'s {} falls {} differ{} from the others", which, set.falls,
-                                     set.distinct, set.distinct == 1 ? "s" : ""),
-                         "; falls that repeat others do not count"});
+        notes.push_back({fmt::format("only {2} of the {0}'s {1} falls differ{3} from the others", which,
+                                     set.falls, set.distinct, set.distinct == 1 ? "s" : ""),
+                         "; duplicates are not counted"});
     }
     const auto& frequency = set.metrics[Metric::frequency];
     if (frequency && frequency->value > 0.0) {
@@ -58,12 +58,11 @@ std::vector<SideNote> notes_of_side(const char* which, const FallChoice& choice,
     }
     if (set.distinct > 1) return notes;
     if (set.pieces < 3) {
-        notes.push_back(
-            {fmt::format("the {}'s window shows too few swings to tell an error from them", which),
-             "; give a longer fall or more runs"});
+        notes.push_back({fmt::format("the {}'s window has too few swings to estimate an error", which),
+                         "; give a longer fall or more runs"});
     } else if (set.pieces < few_pieces) {
-        notes.push_back(
-            {fmt::format("the {}'s errors rest on {} swings", which, set.pieces), ": they are rough"});
+        notes.push_back({fmt::format("the {}'s errors are estimated from {} swings", which, set.pieces),
+                         ": they are rough"});
     }
     return notes;
 }
@@ -98,8 +97,7 @@ void note_shapes(Notes& notes, const FallChoice& motion, const FallChoice& refer
     const double b = surface_area(reference.of_body().surface);
     if (std::abs(a - b) <= same_area * std::max(a, b)) return;
     notes.push_back(fmt::format(
-        "the bodies are not the same: the motion's has a surface of {:.4g} m^2, the reference's {:.4g} m^2",
-        a, b));
+        "the bodies differ: the motion's has a surface of {:.4g} m^2, the reference's {:.4g} m^2", a, b));
 }
 
 /// Returns limits of a comparison's validity, a sentence each without a full stop: falls of different length,
@@ -110,8 +108,8 @@ std::vector<std::string> comparison_notes(const FallChoice& motion, const FallCh
     note_shapes(notes, motion, reference);
     if (!comparison.judges_inclination) {
         notes.emplace_back(
-            "no axis of the body is shorter than the others: the inclination is that of an axis chosen by "
-            "chance, and only the descent speed is judged");
+            "no axis of the body is shorter than the others: the inclination refers to an arbitrary axis, "
+            "and only the descent speed is judged");
     }
     if (comparison.judges_inclination) note_starts(notes, comparison);
     note_lengths(notes, comparison);
@@ -128,14 +126,15 @@ void require_same_gravity(const FallChoice& motion, const FallChoice& reference)
     const Vector3d& a = motion.motion().gravity;
     const Vector3d& b = reference.motion().gravity;
     if ((a - b).norm() <= same_gravity * std::max(a.norm(), b.norm())) return;
-    throw Error(fmt::format(
-        "{} has the gravity [{:g}, {:g}, {:g}] m/s^2, {} has [{:g}, {:g}, {:g}]: the two cannot be compared",
-        motion.name, a.x(), a.y(), a.z(), reference.name, b.x(), b.y(), b.z()));
+    throw Error(
+        fmt::format("{} has the gravity [{:g}, {:g}, {:g}] m/s^2, {} has [{:g}, {:g}, {:g}]: they cannot be "
+                    "compared; simulate both with the same gravity",
+                    motion.name, a.x(), a.y(), a.z(), reference.name, b.x(), b.y(), b.z()));
 }
 
 void require_length(const FallChoice& choice, const FallLengths& lengths) {
     if (lengths.shortest > 0.0) return;
-    throw Error(fmt::format("{}: a fall of '{}' is a single frame; there is nothing to measure", choice.name,
+    throw Error(fmt::format("{}: a fall of '{}' has a single frame; simulate for longer", choice.name,
                             choice.of_body().name));
 }
 
@@ -146,8 +145,8 @@ TimeWindow window_of(const FallChoice& motion, const FallLengths& motion_lengths
     if (asked->begin >= 0.0 && asked->begin < asked->end && asked->end <= common * (1.0 + 1e-9))
         return *asked;
     throw Error(
-        fmt::format("the window from {:g} s to {:g} s after the release is not within both falls: {} shows "
-                    "{:.4g} s, {} shows {:.4g} s",
+        fmt::format("the window from {:g} s to {:g} s after the release is not within both falls: {} lasts "
+                    "{:.4g} s, {} lasts {:.4g} s; give another --window",
                     asked->begin, asked->end, motion.name, motion_lengths.shortest, reference.name,
                     reference_lengths.shortest));
 }

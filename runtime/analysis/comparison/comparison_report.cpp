@@ -230,7 +230,7 @@ std::string as_text(const Comparison& all) {
                            "motion", "reference", "difference", "");
     text += row("regime", regime_text(all.motion), regime_text(all.reference), "",
                 !all.judges_inclination   ? ""
-                : all.regime_is_uncertain ? "the reference's own is uncertain"
+                : all.regime_is_uncertain ? "the reference itself is uncertain"
                 : all.regimes_agree       ? "agrees"
                                           : "differs");
     for (const CataloguedMetric& entry : metric_catalogue) {
@@ -242,13 +242,12 @@ std::string as_text(const Comparison& all) {
     }
     text += distribution_text(all) + first_swing_text(all);
     for (const LandingComparison& landing : all.landings) text += landing_text(landing);
-    for (const std::string& note : all.notes) text += "note: " + note + '\n';
+    for (const std::string& note : all.notes) text += "warning: " + note + '\n';
     text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
-    if (!all.certain) text += ", but not for certain";
+    if (!all.certain) text += ", but this is uncertain";
     if (has_warnings(all))
         text +=
-            " (?: the limit is less than two standard errors away, or these are not known, or the "
-            "reference's own "
+            " (?: the limit is less than two standard errors away, these are unknown, or the reference's own "
             "uncertainty decides)";
     return text + '\n';
 }

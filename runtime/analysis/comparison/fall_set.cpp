@@ -64,9 +64,8 @@ void require_frame_rate(const FallChoice& choice, double fastest) {
     const double angle = fastest * longest;
     if (angle <= 0.5 * std::numbers::pi) return;
     throw Error(fmt::format(
-        "{}: '{}' rotates by up to {:.0f} degrees from one frame to the next, too far to be "
-        "followed; write the "
-        "motion with a frame_rate of {:.0f} or more",
+        "{}: '{}' rotates by up to {:.0f} degrees between frames, too much to be tracked; write the motion "
+        "with a frame_rate of {:.0f} or more",
         choice.name, choice.of_body().name, angle * degrees, std::ceil(fastest / (std::numbers::pi / 6.0))));
 }
 

@@ -16,14 +16,12 @@ namespace {
 void require_same_scene(const std::filesystem::path& reference, const Motion& a,
                         const std::filesystem::path& other, const Motion& b) {
     if (a.bodies.size() != 1 || b.bodies.size() != 1) {
-        throw Error(
-            fmt::format("{}: holds several bodies; the falls that a reference is held against hold one",
-                        (a.bodies.size() != 1 ? reference : other).string()));
+        throw Error(fmt::format("{}: holds several bodies; give a motion of one body",
+                                (a.bodies.size() != 1 ? reference : other).string()));
     }
     if (a.scene_text != b.scene_text) {
-        throw Error(fmt::format(
-            "{}: is of another scene than {}; only falls of the same scene tell how uncertain they are",
-            other.string(), reference.string()));
+        throw Error(fmt::format("{}: is not from the same scene as {}; give a motion of the same scene",
+                                other.string(), reference.string()));
     }
 }
 

@@ -42,7 +42,7 @@ std::string uncertainty_text(const BodyMotion& body) {
     const std::string* cause = nullptr;
     for (const MetricUncertainty& one : body.uncertainties) {
         const bool begins = cause == nullptr || *cause != one.cause;
-        if (begins) text += fmt::format("{}  uncertain by its {}: ", text.empty() ? "" : "\n", one.cause);
+        if (begins) text += fmt::format("{}  uncertainty from its {}: ", text.empty() ? "" : "\n", one.cause);
         cause = &one.cause;
         text += fmt::format("{}{} {:.2g} %", begins ? "" : ", ", one.metric, 100.0 * told_by(one));
     }
@@ -92,9 +92,9 @@ std::string landing_text(const Landing& landing, int samples) {
     if (samples > 1) {
         text = fmt::format("  {} of {} landed around [{:.4g}, {:.4g}] m, {:.3g} m from it (rms)",
                            landing.count, samples, landing.mean.x(), landing.mean.y(), landing.spread);
-        return text + fmt::format("; {} lie still\n", landing.at_rest);
+        return text + fmt::format("; {} at rest\n", landing.at_rest);
     }
-    return text + (landing.at_rest == 1 ? ", lies still\n" : "\n");
+    return text + (landing.at_rest == 1 ? ", at rest\n" : "\n");
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ std::vector<LeftOutCase> left_out_cases(const LoadTables& tables) {
             cases.push_back({one.at("name").get<std::string>(), one.at("reason").get<std::string>()});
         }
     } catch (const nlohmann::json::exception&) {
-        throw Error("/tables/left_out is no JSON list of names and reasons; bake the body again");
+        throw Error("/tables/left_out is not a JSON list of names and reasons; bake the body again");
     }
     return cases;
 }

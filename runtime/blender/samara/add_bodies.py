@@ -27,22 +27,22 @@ def _random_turn(random):
 class SAMARA_OT_add_bodies(bpy.types.Operator):
     bl_idname = "samara.add_bodies"
     bl_label = "samara Bodies"
-    bl_description = "Adds objects with the shape and size of a body file, about the 3D cursor"
+    bl_description = "Adds objects with the shape and size of a body file around the 3D cursor"
     bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.h5", options={"HIDDEN"})
     count: IntProperty(name="Count", default=1, min=1, max=100000)
     spread: FloatVectorProperty(
-        name="Spread", description="Up to this far from the 3D cursor along each axis", subtype="TRANSLATION", size=3
+        name="Spread", description="Largest distance from the 3D cursor along each axis", subtype="TRANSLATION", size=3
     )
-    turn: BoolProperty(name="Turn", description="A random orientation for each body")
+    turn: BoolProperty(name="Turn", description="Gives each body a random orientation")
     smallest_size: FloatProperty(
-        name="Smallest Size", description="Relative to the body file; each body has a size between the two", default=1.0, min=0.001
+        name="Smallest Size", description="Smallest random size relative to the body file", default=1.0, min=0.001
     )
-    largest_size: FloatProperty(name="Largest Size", description="Relative to the body file", default=1.0, min=0.001)
+    largest_size: FloatProperty(name="Largest Size", description="Largest random size relative to the body file", default=1.0, min=0.001)
     release: FloatProperty(
-        name="Release Over", description="Frames over which the bodies are released at random; each is held until then", default=0.0, min=0.0
+        name="Release Over", description="Number of frames over which the bodies are released at random times", default=0.0, min=0.0
     )
     spread_seed: IntProperty(name="Seed of the Spread", default=1, min=0)
     density: FloatProperty(name="Density", description="kg/m^3", default=1200.0, min=0.001, precision=1)

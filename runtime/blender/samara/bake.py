@@ -18,9 +18,9 @@ from .samara_library import SamaraError
 def mesh_corners(context, o):
     """Returns the triangles (n, 3 corners, 3) of the object with modifiers and scale, in metres about its origin."""
     if any(s < 0.0 for s in scale_of(o)):
-        raise SamaraError(f"{o.name}: has a negative scale, which turns its faces; apply it (Ctrl A, Scale)")
+        raise SamaraError(f"{o.name}: has a negative scale, which flips its faces; apply it (Ctrl A, Scale)")
     if any(s == 0.0 for s in scale_of(o)):
-        raise SamaraError(f"{o.name}: has a scale of 0; it has no volume")
+        raise SamaraError(f"{o.name}: has a scale of 0 and so no volume; give it another scale")
     vertices, triangles = evaluated_mesh(o, context.evaluated_depsgraph_get())
     return (vertices * numpy.array(scale_of(o)) * metres_per_unit(context.scene))[triangles]
 
@@ -41,18 +41,18 @@ def output_folder():
 class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
     bl_idname = "samara.bake"
     bl_label = "Bake Body"
-    bl_description = "Makes a body file of the active object's closed mesh, with the program samara"
+    bl_description = "Makes a body file from the active object's closed mesh, with the program samara"
     bl_options = {"UNDO"}  # not REGISTER, by which changed settings of a past call would run it again
     WHILE_RUNNING = {"PASS_THROUGH"}
-    CANCELLED = "bake cancelled; what is solved is kept, and the next bake goes on from there"
+    CANCELLED = "bake cancelled; solved cases are kept, and the next bake continues from there"
 
     quality: EnumProperty(
         name="Quality",
         items=[
-            ("SHAPE", "Added mass alone", "A second; no OpenFOAM. Loads then come from coefficients"),
-            ("SMOKE", "Smoke", "The coarsest tables, for tests"),
-            ("PREVIEW", "Preview", "Tables by OpenFOAM in a minute or some, for a first look"),
-            ("STANDARD", "Standard", "Tables for work: many minutes"),
+            ("SHAPE", "Added mass only", "Takes a second, without OpenFOAM. Loads come from the surface or from coefficients"),
+            ("SMOKE", "Smoke", "The coarsest tables, for tests only"),
+            ("PREVIEW", "Preview", "Tables from OpenFOAM in a few minutes, for a first look"),
+            ("STANDARD", "Standard", "Tables for production; takes many minutes"),
         ],
         default="PREVIEW",
     )
@@ -76,12 +76,12 @@ class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
         return BakeJob(command)
 
     def status(self):
-        return f"samara bakes. {self.job.line}"
+        return f"samara is baking. {self.job.line}"
 
     def finish(self, context):
         o = bpy.data.objects.get(self._name)
         if o is None:
-            self.report({"WARNING"}, f"{self._file}: is baked, but the object {self._name} is gone")
+            self.report({"WARNING"}, f"{self._file}: is baked, but the object {self._name} no longer exists; pick the file in another object")
             return {"FINISHED"}
         o.samara.body_file = bpy.path.relpath(self._file) if bpy.data.filepath else self._file
         o.samara.body_scale = self._scale

@@ -26,8 +26,8 @@ def frame_count(scene):
     """Returns the number of frames from the scene's first to its last, inclusive."""
     if scene.frame_end <= scene.frame_start:
         raise SamaraError(
-            f"the scene's frame range, {scene.frame_start} to {scene.frame_end}, has no length; "
-            "set its end behind its start"
+            f"the scene's frame range, {scene.frame_start} to {scene.frame_end}, is empty; "
+            "set its end after its start"
         )
     return scene.frame_end - scene.frame_start + 1
 
@@ -62,6 +62,6 @@ def size_of(name, scale, body_scale):
     text = ", ".join(f"{s:.4g}" for s in scale)
     wanted = ", ".join(f"{s:.4g}" for s in body_scale)
     raise SamaraError(
-        f"{name}: its scale is ({text}), which is another shape than that of the body file, for ({wanted}), or a "
-        "multiple; apply the scale (Ctrl A) and bake the body anew, or set the scale back"
+        f"{name}: its scale is ({text}), but the body file is for ({wanted}) or a multiple; apply the scale (Ctrl A) "
+        "and bake the body again, or restore the scale"
     )

@@ -51,7 +51,7 @@ def _known_obstacles(scene):
         _obstacles[scene.name] = (obstacles.frame, obstacles.taken_at(depsgraph))
         _stale.discard(scene.name)
     elif known is None:
-        raise SamaraError("an obstacle moves, and its path is not known yet; click Live again")
+        raise SamaraError("an obstacle moves, and its path is not sampled yet; click Live again")
     else:
         note_change(scene)
     return _obstacles[scene.name][1]
@@ -186,7 +186,7 @@ def go_live(objects, context):
     for o in objects:
         if has_keys(o):
             raise SamaraError(
-                f"{o.name}: has keys or drivers, which would hide the live motion; clear them "
+                f"{o.name}: has keys or drivers, which override the live motion; clear them "
                 "(Object > Animation > Clear Keyframes)"
             )
     surroundings = surroundings_of(scene, look_at_obstacles(context))

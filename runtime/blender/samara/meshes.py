@@ -11,7 +11,7 @@ def evaluated_mesh(o, depsgraph):
     try:
         mesh = evaluated.to_mesh()
     except RuntimeError:
-        raise SamaraError(f"{o.name}: has no mesh; take an object with one") from None
+        raise SamaraError(f"{o.name}: has no mesh; choose an object with a mesh") from None
     try:
         mesh.calc_loop_triangles()
         vertices = numpy.empty(3 * len(mesh.vertices), numpy.float32)
@@ -21,5 +21,5 @@ def evaluated_mesh(o, depsgraph):
     finally:
         evaluated.to_mesh_clear()
     if not len(triangles):
-        raise SamaraError(f"{o.name}: has no faces; take a mesh with faces")
+        raise SamaraError(f"{o.name}: has no faces; choose a mesh with faces")
     return vertices.reshape(-1, 3).astype(float), triangles.reshape(-1, 3)

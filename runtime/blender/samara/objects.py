@@ -29,7 +29,7 @@ def flown_objects(context):
     """Returns the selected objects that have a body file."""
     objects = [o for o in context.selected_objects if o.samara.body_file]
     if not objects:
-        raise SamaraError("no selected object has a body file; select objects, and pick or bake their bodies")
+        raise SamaraError("no selected object has a body file; select objects, and pick or bake their body files")
     return objects
 
 
@@ -76,7 +76,7 @@ def _require_steady_deltas(o):
     data = o.animation_data
     curves = [] if data is None else list(data.drivers) + (list(data.action.fcurves) if data.action else [])
     if any(curve.data_path.startswith("delta_") for curve in curves):
-        raise SamaraError(f"{o.name}: its delta transform has keys or drivers; clear them, or key location and rotation")
+        raise SamaraError(f"{o.name}: its delta transform has keys or drivers; clear them, or use keys of location and rotation")
 
 
 def start_pose(o):
@@ -105,7 +105,7 @@ def wind_of(scene):
     if wind.wind_profile != "NONE":
         direction.z = 0.0
     if direction.length == 0.0 and wind.wind_speed > 0.0:
-        raise SamaraError("the wind has no direction; with a profile it must be level, and not straight up or down")
+        raise SamaraError("the wind has no direction; set one, which must be horizontal with a profile")
     direction.normalize()
     lines = [f"velocity = {[unit * wind.wind_speed * x for x in direction]}"]
     if wind.wind_profile != "NONE" and wind.wind_speed > 0.0:
@@ -163,7 +163,7 @@ def request_of(o, surroundings, let_go=None):
     second) and its angular velocity (rad/s) there."""
     body, unit = o.samara, surroundings.metres_per_unit
     if body.is_obstacle:
-        raise SamaraError(f"{o.name}: is an obstacle, and does not fly; untick Obstacle, or leave it out")
+        raise SamaraError(f"{o.name}: is an obstacle and cannot be simulated; untick Obstacle, or deselect it")
     size = size_of(o.name, scale_of(o), body.body_scale)
     location, rotation = start_pose(o)
     file = body_file_of(o)

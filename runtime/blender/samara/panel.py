@@ -67,7 +67,7 @@ def _draw_file(layout, o):
         layout.label(text=str(error), icon="ERROR")
         return None
     weighs = f", {1000.0 * body.mass:.4g} g" if body.mass > 0.0 else ""
-    loads = {"TABLE": " and tables", "SURFACE": " and its surface's loads", "COEFFICIENTS": ""}[body.loads_in_use("AUTO")]
+    loads = {"TABLE": " and tables", "SURFACE": " and surface loads", "COEFFICIENTS": ""}[body.loads_in_use("AUTO")]
     layout.label(text=f"{body.name}: added mass{loads}{weighs}", icon="INFO")
     return body
 

@@ -23,30 +23,30 @@ class SamaraBody(bpy.types.PropertyGroup):
 
     body_file: StringProperty(
         name="Body File",
-        description="NAME.body.h5 of samara: shape, added mass, tables. Its origin and axes are those of the object",
+        description="samara's body file NAME.body.h5: shape, added mass, tables. Its origin and axes are those of the object",
         subtype="FILE_PATH",
     )
     body_scale: FloatVectorProperty(
         description="The object's scale for which the body file was made", size=3, default=(1.0, 1.0, 1.0)
     )
     density: FloatProperty(
-        name="Density", description="kg/m^3, uniform", default=1200.0, min=0.001, soft_max=20000.0, precision=1
+        name="Density", description="Uniform density, kg/m^3", default=1200.0, min=0.001, soft_max=20000.0, precision=1
     )
     mass_source: EnumProperty(
         name="Mass",
-        description="How the body's mass is given",
+        description="How the body's mass is defined",
         items=[
-            ("FILE", "As Baked", "What the body file says; by the density where it says nothing"),
-            ("DENSITY", "Density", "Uniform"),
-            ("MASS", "Mass", "With a centre and moments of inertia of its own, where they are ticked"),
+            ("FILE", "As Baked", "The mass in the body file; a uniform density if the file has none"),
+            ("DENSITY", "Density", "A uniform density"),
+            ("MASS", "Mass", "A mass, optionally with its centre and moments of inertia"),
         ],
     )
     mass: FloatProperty(name="Mass", description="kg", default=0.001, min=1e-9, precision=6)
-    use_center_of_mass: BoolProperty(name="Centre", description="Give the centre of mass; otherwise it is the centroid of the volume")
+    use_center_of_mass: BoolProperty(name="Centre", description="Set the centre of mass; otherwise it is the centroid of the volume")
     center_of_mass: FloatVectorProperty(
         name="Centre", description="Centre of mass in the object's axes", subtype="TRANSLATION", size=3, precision=5
     )
-    use_inertia: BoolProperty(name="Inertia", description="Give the inertia; otherwise the mass is uniform in the volume")
+    use_inertia: BoolProperty(name="Inertia", description="Set the inertia; otherwise the density is uniform")
     inertia: FloatVectorProperty(
         name="Moments", description="xx, yy, zz about the centre of mass, kg m^2", size=3, min=0.0, precision=9, step=0.0001
     )
@@ -57,16 +57,16 @@ class SamaraBody(bpy.types.PropertyGroup):
         name="Loads",
         description="The source of drag, lift and moments",
         items=[
-            ("AUTO", "Automatic", "What the body file holds: tables, else its surface's loads, else coefficients"),
+            ("AUTO", "Automatic", "The best that the body file has: tables, otherwise surface loads, otherwise coefficients"),
             ("TABLE", "Tables", "The body file's tables, baked with OpenFOAM"),
-            ("SURFACE", "Surface", "The pressure that potential flow tells of the surface, without CFD"),
+            ("SURFACE", "Surface", "Forces estimated from potential flow, without CFD"),
             ("COEFFICIENTS", "Coefficients", "Drag and lift coefficients"),
         ],
     )
     drag_coefficient: FloatProperty(name="Drag", description="Drag coefficient", default=1.2, min=0.0)
     lift_coefficient: FloatProperty(name="Lift", description="Lift coefficient", default=0.6)
     noise: BoolProperty(
-        name="Noise", description="Random loads by the turbulence in the body file's tables; needs tables", default=True
+        name="Noise", description="Random loads from the turbulence in the body file's tables", default=True
     )
     velocity: FloatVectorProperty(
         name="Velocity", description="Velocity of the centre of mass at the first frame", subtype="VELOCITY", size=3
@@ -76,26 +76,26 @@ class SamaraBody(bpy.types.PropertyGroup):
     )
     release: FloatProperty(
         name="Release",
-        description="Frames after the first one until which the body is held in place, or follows its keys and is released "
-        "with their velocity",
+        description="Number of frames, from the first, during which the body is held or follows its keys. It is then released "
+        "with the velocity of the keys",
         default=0.0, min=0.0, precision=1
     )
     returns: IntProperty(
         name="Return",
-        description="Frames after the first one from which the object follows its keys again; 0: never",
+        description="Keyframes take over at this frame, counted from the first one; 0: never",
         default=0,
         min=0,
     )
     return_blend: IntProperty(
-        name="Blend", description="Frames before the return over which the motion is blended into the keys", default=12, min=1
+        name="Blend", description="Number of frames before the return over which the motion is blended into the keys", default=12, min=1
     )
     is_obstacle: BoolProperty(
         name="Obstacle",
-        description="Bodies land on this object's mesh, with modifiers, slide on it and fall off; it is not moved by them",
+        description="Bodies collide with this object's mesh, with modifiers; they do not move it",
         update=_obstacles_changed,
     )
     friction: FloatProperty(
-        name="Friction", description="Coulomb's coefficient of friction", default=0.5, min=0.0, soft_max=2.0,
+        name="Friction", description="Coulomb friction coefficient", default=0.5, min=0.0, soft_max=2.0,
         update=_obstacles_changed,
     )
     live: BoolProperty(description="Whether the object follows its simulation at every frame change")
@@ -113,7 +113,7 @@ class SamaraSurroundings(bpy.types.PropertyGroup):
         items=[
             ("WATER", "Water", "998.2 kg/m^3, 1.002e-3 Pa s"),
             ("AIR", "Air", "1.204 kg/m^3, 1.825e-5 Pa s"),
-            ("CUSTOM", "Custom", "Density and viscosity of your own"),
+            ("CUSTOM", "Custom", "Your own density and viscosity"),
         ],
     )
     fluid_density: FloatProperty(name="Fluid Density", description="kg/m^3", default=998.2, min=1e-6, precision=3)
@@ -123,22 +123,22 @@ class SamaraSurroundings(bpy.types.PropertyGroup):
     current: FloatVectorProperty(
         name="Current", description="Uniform and steady velocity of the fluid", subtype="VELOCITY", size=3
     )
-    use_wind: BoolProperty(name="Wind", description="Wind in addition to the current, at the place of every body")
+    use_wind: BoolProperty(name="Wind", description="The scene's wind, in addition to the current")
     wind_speed: FloatProperty(name="Speed", description="Speed of the mean wind", default=3.0, min=0.0)
     wind_direction: FloatVectorProperty(
         name="Direction", description="Direction in which the wind blows", subtype="XYZ", size=3, default=(1.0, 0.0, 0.0)
     )
     wind_profile: EnumProperty(
         name="Profile",
-        description="The profile of the mean wind over the height above the ground",
+        description="Profile of the mean wind with height above the ground",
         items=[
-            ("NONE", "Uniform", "The same everywhere"),
-            ("LOG", "Logarithmic", "Over rough ground"),
-            ("POWER", "Power Law", "By an exponent"),
+            ("NONE", "Uniform", "The same speed everywhere"),
+            ("LOG", "Logarithmic", "Logarithmic profile over rough ground"),
+            ("POWER", "Power Law", "Power-law profile with an exponent"),
         ],
     )
     wind_height: FloatProperty(
-        name="Height", description="Height above the ground at which the wind has its speed", subtype="DISTANCE", default=10.0, min=1e-3
+        name="Height", description="Height above the ground at which Speed applies", subtype="DISTANCE", default=10.0, min=1e-3
     )
     wind_roughness: FloatProperty(
         name="Roughness", description="Roughness length z0: 0.03 m for grass, 1 m for a town", subtype="DISTANCE",
@@ -146,23 +146,23 @@ class SamaraSurroundings(bpy.types.PropertyGroup):
     )
     wind_exponent: FloatProperty(name="Exponent", default=0.14, min=1e-3, max=1.0, precision=3)
     gust_speed: FloatProperty(name="Gusts", description="Root mean square of each component of the gusts; 0: none", default=0.0, min=0.0)
-    gust_length: FloatProperty(name="Size", description="Length of the gusts along the wind", subtype="DISTANCE", default=1.0, min=1e-4)
+    gust_length: FloatProperty(name="Size", description="Length scale of the gusts along the wind", subtype="DISTANCE", default=1.0, min=1e-4)
     gust_spectrum: EnumProperty(
         name="Spectrum",
         items=[("VON_KARMAN", "von Karman", "Free turbulence"), ("KAIMAL", "Kaimal", "Near the ground")],
     )
-    gust_seed: IntProperty(name="Gust Seed", description="Another seed gives other gusts of the same strength", default=1, min=0)
+    gust_seed: IntProperty(name="Gust Seed", description="Seed of the gusts", default=1, min=0)
     use_ground: BoolProperty(name="Ground", description="Level ground, on which bodies come to rest")
     ground: FloatProperty(name="Height", description="Height of the ground", subtype="DISTANCE")
     bodies_meet: BoolProperty(  # the name that .blend files keep
         name="Bodies Collide",
-        description="Bodies that are simulated together, live or by one Simulate to Keyframes, collide with each other",
+        description="Bodies that are simulated together collide with each other",
     )
     seed: IntProperty(
-        name="Seed", description="Seed of the noise; objects with different names have different noise", default=1, min=0
+        name="Seed", description="Seed of the noise; objects with different names get different noise", default=1, min=0
     )
     step: FloatProperty(
-        name="Step", description="Time step in seconds, whatever the frame rate", default=0.002, min=1e-5, max=0.1, precision=4
+        name="Step", description="Time step in seconds, independent of the frame rate", default=0.002, min=1e-5, max=0.1, precision=4
     )
 
 

@@ -155,10 +155,10 @@ def library():
             function.restype, function.argtypes = c_int, arguments + [c_char_p, c_size_t]
     except (OSError, AttributeError) as error:
         raise SamaraError(
-            f"samara's library cannot be loaded: {error}; install the add-on's zip anew, built for this system"
+            f"samara's library cannot be loaded: {error}; install the add-on's zip for this system again"
         ) from None
     if loaded.samara_api_version() < API_VERSION:
-        raise SamaraError(f"{LIBRARY} is older than the add-on; install the add-on's zip anew")
+        raise SamaraError(f"{LIBRARY} is older than the add-on; install the add-on's zip again")
     return loaded
 
 

@@ -38,8 +38,8 @@ def _let_go(scene, o, surroundings):
     velocity = (location - before_location) / seconds
     if surroundings.metres_per_unit * velocity.length > MOST_KEYED_SPEED:
         raise SamaraError(
-            f"{o.name}: its keys jump just before its release, at {surroundings.metres_per_unit * velocity.length:.3g} m/s, "
-            f"and {MOST_KEYED_SPEED:g} is the most; smooth them there, or set Release elsewhere"
+            f"{o.name}: its keys move at {surroundings.metres_per_unit * velocity.length:.3g} m/s just before its release, "
+            f"above the limit of {MOST_KEYED_SPEED:g}; smooth them there, or change Release"
         )
     w, *axis = rotation @ before_rotation.conjugated()
     length = math.hypot(*axis)
@@ -87,7 +87,7 @@ def _return_frame(o, surroundings):
     if body.returns == 0:
         return None
     if not has_keys(o):
-        raise SamaraError(f"{o.name}: is to return to its keys, but has none; key it, or set Return to 0")
+        raise SamaraError(f"{o.name}: has Return set, but no keys; add keys, or set Return to 0")
     if body.returns <= body.release:
         raise SamaraError(f"{o.name}: returns to its keys before its release; set Return later, or Release earlier")
     return body.returns if body.returns < surroundings.frames else None
@@ -170,7 +170,7 @@ def insert_flights(context, objects, flights, paths):
 class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
     bl_idname = "samara.simulate"
     bl_label = "Simulate to Keyframes"
-    bl_description = "Simulates the selected objects over the scene's frame range and keys their location and rotation"
+    bl_description = "Simulates the selected objects over the scene's frame range and inserts keys of location and rotation"
     bl_options = {"UNDO"}  # not REGISTER, by which changed settings of a past call would run it again
     CANCELLED = "simulation cancelled; nothing has changed"
 
@@ -180,7 +180,7 @@ class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
         return FlightJob(requests)
 
     def status(self):
-        return f"samara simulates: {100.0 * self.job.progress():.0f} %"
+        return f"samara is simulating: {100.0 * self.job.progress():.0f} %"
 
     def finish(self, context):
         insert_flights(context, self._objects, self.job.flights, self._ways)
@@ -193,8 +193,8 @@ class SAMARA_OT_live(bpy.types.Operator):
     bl_idname = "samara.live"
     bl_label = "Live"
     bl_description = (
-        "The selected objects follow their simulations at every frame change, without keys; "
-        "once more: they are back where they started"
+        "Makes the selected objects follow their simulations at every frame change, without keys. "
+        "Click again to move them back to their start"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -216,7 +216,7 @@ class SAMARA_OT_live(bpy.types.Operator):
 class SAMARA_OT_copy_settings(bpy.types.Operator):
     bl_idname = "samara.copy_settings"
     bl_label = "Copy to Selected"
-    bl_description = "Gives the active object's body and its settings to the other selected objects"
+    bl_description = "Copies the active object's body and settings to the other selected objects"
     bl_options = {"REGISTER", "UNDO"}
 
     COPIED = (

@@ -62,7 +62,7 @@ std::string error_of(const std::exception& error) {
         return "out of memory; use fewer triangles, bodies, frames or runs";
     }
     if (dynamic_cast<const std::length_error*>(&error) != nullptr) {
-        return "more numbers are asked for than any memory holds; is a count or unit wrong?";
+        return "the request needs more memory than any machine has; check counts and units";
     }
     if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
         return fmt::format("{}: cannot be used: {}", file->path1().string(), file->code().message());
@@ -139,11 +139,12 @@ std::string error_in_words(const CLI::App& app, const CLI::ParseError& error) {
         if (word.size() < 2 || word.front() != '-' || word == "--") continue;
         const std::string option = word.substr(0, word.find('='));
         const std::string meant = did_you_mean(option, options_of(app));
-        return fmt::format("there is no option '{}'{}", option, meant.empty() ? see_help : meant);
+        return fmt::format("unknown option '{}'{}", option, meant.empty() ? see_help : meant);
     }
     const bool too_many = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    return (too_many && !unknown.empty() ? fmt::format("'{}' is one word too many", unknown.front())
-                                         : std::string(error.what())) +
+    return (too_many && !unknown.empty()
+                ? fmt::format("unexpected argument '{}'; leave it out", unknown.front())
+                : std::string(error.what())) +
            see_help;
 }
 
@@ -152,7 +153,7 @@ const CLI::Validator plain_number(
     [](const std::string& word) {
         double number = 0.0;
         if (CLI::detail::lexical_cast(word, number)) return std::string();
-        return fmt::format("'{}' is no number; numbers stand without a unit, in SI units: m, kg, s, rad",
+        return fmt::format("'{}' is not a number; give a number without a unit, in SI units: m, kg, s, rad",
                            word);
     },
     "");
@@ -171,7 +172,7 @@ Arguments::Arguments(std::string program, std::string description) : parser_(std
     parser_->app.get_formatter()->column_width(34);
     parser_->app.set_version_flag("--version", std::string("samara ") + version);
     parser_->app.add_flag(std::string(json_option), parser_->json,
-                          "print the result as one JSON object; of an error {\"error\": \"...\"}");
+                          "print the result as one JSON object; an error as {\"error\": \"...\"}");
 }
 
 Arguments::~Arguments() = default;

@@ -46,7 +46,7 @@ void BodyNotes::add(const std::string& type, const std::string& body, double sev
 
 void BodyNotes::print() {
     for (const Note& note : notes_) {
-        print_note("{}: note: {}{}: {}\n", program_, names_of(note.bodies),
+        print_note("{}: warning: {}{}: {}\n", program_, names_of(note.bodies),
                    !note.alike ? fmt::format(" (values of '{}')", note.worst) : "", note.text);
     }
     notes_.clear();
@@ -58,13 +58,13 @@ std::string shape_warning(const Body& body) {
     const ShapeError& error = *body.shape_error;
     if (std::max(std::abs(error.volume), error.distance) <= unsaid) return {};
     std::string text = fmt::format(
-        "its mesh has {:.1f} % {} volume than its shape and lies up to {:.1f} % of its size from it",
+        "its mesh has {:.1f} % {} volume than its shape and deviates from it by up to {:.1f} % of its size",
         100.0 * std::abs(error.volume), error.volume < 0.0 ? "less" : "more", 100.0 * error.distance);
     // Rounding facets off adds half to once and a half of what is estimated to lie between.
     const bool rounded = std::abs(error.volume) < 1.5 * error.faceting && body.surface.order() == 2;
-    return text + (rounded ? ": it follows the smooth shape through the corners of the facets; 'samara mesh "
-                             "--order 1' keeps the facets"
-                           : "; 'samara mesh' with more --triangles, or without, comes nearer");
+    return text + (rounded ? ": it replaces the facets by a smooth surface through their corners; 'samara "
+                             "mesh --order 1' keeps the facets"
+                           : "; run 'samara mesh' with more --triangles, or without that option");
 }
 
 }  // namespace samara

@@ -50,8 +50,8 @@ Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
     const auto program = find_program("samara-mesh");
     if (!program) {
         throw Error(
-            fmt::format("{}: is a shape, and samara-mesh, which meshes shapes, is not installed; give "
-                        "a .body.h5 file or build the baking tools (SAMARA_BAKING=ON)",
+            fmt::format("{}: is a shape, and samara-mesh, which meshes shapes, is not installed; give a "
+                        ".body.h5 file, install the package samara-baking, or build with SAMARA_BAKING=ON",
                         shape.string()));
     }
     const TemporaryFolder folder;
@@ -93,10 +93,12 @@ Body load_body(const std::filesystem::path& body_or_shape, double scale, int tri
         return meshed(body_or_shape, scale, triangles);
     }
     if (triangles > 0) {
-        throw Error(fmt::format("{}: holds a mesh already; --triangles needs the shape file", name));
+        throw Error(
+            fmt::format("{}: already holds a mesh; leave --triangles out, or give the shape file", name));
     }
     if (scale != 1.0) {
-        throw Error(fmt::format("{}: is in metres already; a scale needs the shape file", name));
+        throw Error(
+            fmt::format("{}: is already in metres; leave the scale out, or give the shape file", name));
     }
     return read_body_file(body_or_shape);
 }

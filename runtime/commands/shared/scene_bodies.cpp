@@ -34,8 +34,8 @@ std::filesystem::path file_of(const SceneBody& scene_body, const std::string& bo
 void require_same_shape(const std::filesystem::path& file, const Body& body, const SceneBody& scene_body) {
     if (is_body_file_name(scene_body.shape)) return;
     if (body.source.find(file_content_hash(scene_body.shape)) != std::string::npos) return;
-    throw Error(fmt::format("{}: was made from another shape than {} is now; bake the scene again",
-                            file.string(), scene_body.shape.string()));
+    throw Error(fmt::format("{}: was not made from the current {}; bake the scene again", file.string(),
+                            scene_body.shape.string()));
 }
 
 /// What a scene asks of the body of a file.

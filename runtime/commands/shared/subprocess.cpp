@@ -62,7 +62,8 @@ int run_subprocess(const std::vector<std::string>& words, const std::filesystem:
     }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) throw Error(fmt::format("{}: was lost: {}", words.front(), std::strerror(errno)));
+        if (errno != EINTR)
+            throw Error(fmt::format("{}: could not be waited for: {}", words.front(), std::strerror(errno)));
     }
     if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
     const int exit_status = WEXITSTATUS(status);

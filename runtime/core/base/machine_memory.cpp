@@ -115,7 +115,7 @@ void require_memory(double bytes, const std::string& what, const std::string& re
     if (bytes < negligible) return;
     const double available = available_memory();
     if (bytes <= available) return;
-    throw Error(fmt::format("{} takes {:.3g} GB of memory, and {:.3g} GB are free; {}", what, 1e-9 * bytes,
+    throw Error(fmt::format("{} needs {:.3g} GB of memory, but {:.3g} GB are free; {}", what, 1e-9 * bytes,
                             1e-9 * available, remedy));
 }
 

@@ -24,7 +24,7 @@ std::string did_you_mean(std::string_view written, const std::vector<std::string
 
 /// What a name that is not plain breaks, in words to stand behind "name".
 inline constexpr std::string_view plain_name_words =
-    "may hold letters, digits, '-' and '_' alone, 64 at most";
+    "may contain only letters, digits, '-' and '_', 64 at most";
 
 /// Returns whether a name of a body or an obstacle may stand in files of all formats: letters, digits, '-'
 /// and '_', 64 at most.

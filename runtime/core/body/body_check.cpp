@@ -48,7 +48,7 @@ std::string error_of_moments(const Body& body, double radius) {
         return "the surface area is not positive";
     }
     if (std::abs(enclosed_volume(body.surface) / volume - 1.0) > faceting) {
-        return fmt::format("the volume of {:g} m^3 is not that of the surface", volume);
+        return fmt::format("the volume of {:g} m^3 does not match the surface", volume);
     }
     // No body has less surface than the ball.
     if (std::cbrt(36.0 * pi * volume * volume) > (1.0 + faceting) * moments.surface_area) {
@@ -62,15 +62,15 @@ std::string error_of_moments(const Body& body, double radius) {
     const double length = volume / (pi * radius * radius);
     if (spread.maxCoeff() > (1.0 + faceting) * radius * radius ||
         spread.minCoeff() < (1.0 - faceting) * length * length / 12.0) {
-        return "/moments/second_moments are not those of a body of this volume and size";
+        return "/moments/second_moments do not match the body's volume and size";
     }
     return {};
 }
 
 std::string error_of(const Symmetry& symmetry) {
-    if (!is_orthonormal(symmetry.axes)) return "/symmetry/axes is no frame of unit vectors";
+    if (!is_orthonormal(symmetry.axes)) return "/symmetry/axes is not a frame of orthogonal unit vectors";
     if (symmetry.type == Symmetry::Type::axial && std::abs(symmetry.axis.norm() - 1.0) > rounding) {
-        return "/symmetry/axis is no unit vector";
+        return "/symmetry/axis is not a unit vector";
     }
     if (symmetry.elements.empty()) return "/symmetry/elements lacks the identity";
     if (!std::all_of(symmetry.elements.begin(), symmetry.elements.end(), is_orthonormal)) {
@@ -118,7 +118,7 @@ std::string error_of(const KirchhoffTensor& kirchhoff, double radius) {
 }
 
 std::string error_of(const LoadTables& tables, double surface_area) {
-    if (!is_orthonormal(tables.axes)) return "/tables/axes is no frame of unit vectors";
+    if (!is_orthonormal(tables.axes)) return "/tables/axes is not a frame of orthogonal unit vectors";
     if (std::abs(tables.reference_length / reference_length(surface_area) - 1.0) > faceting) {
         return "/tables has a reference_length that is not sqrt(S/pi) of the surface";
     }
@@ -181,7 +181,7 @@ std::string error_of_center(const Vector3d& center, const Surface& surface) {
 }
 
 std::string error_of_inertia(const Matrix3d& inertia) {
-    if (!inertia.allFinite()) return "inertia must be of finite numbers";
+    if (!inertia.allFinite()) return "inertia must be finite";
     if ((inertia - inertia.transpose()).norm() > mass_rounding * inertia.norm()) {
         return "inertia must be symmetric";
     }
@@ -189,18 +189,18 @@ std::string error_of_inertia(const Matrix3d& inertia) {
     if (principal.x() > 0.0 && principal.z() <= (principal.x() + principal.y()) * (1.0 + mass_rounding))
         return {};
     return fmt::format(
-        "no body has the principal moments of inertia {:.4g}, {:.4g}, {:.4g}: each must be positive and at "
-        "most the sum of the others",
+        "the principal moments of inertia {:.4g}, {:.4g}, {:.4g} are impossible: each must be positive and "
+        "at most the sum of the others",
         principal.x(), principal.y(), principal.z());
 }
 
 }  // namespace
 
 std::string error_of(const Body& body) {
-    if (body.surface.vertices.empty() || body.surface.corners.empty()) return "/surface holds no triangle";
+    if (body.surface.vertices.empty() || body.surface.corners.empty()) return "/surface has no triangles";
     const double radius = radius_about(body.surface, body.moments.centroid);
     if (!(radius > least_radius && radius < most_radius)) {
-        return fmt::format("/surface reaches {:g} m from the centroid: no body's size", radius);
+        return fmt::format("/surface reaches {:g} m from the centroid, which is too large", radius);
     }
     const Eigen::AlignedBox3d hull = [&] {
         Eigen::AlignedBox3d box;
@@ -221,11 +221,11 @@ std::string error_of(const Body& body) {
 }
 
 std::string error_of(const MassSpecification& mass) {
-    if (!mass.is_given()) return "density or mass must be given";
+    if (!mass.is_given()) return "give density or mass";
     std::string error = error_of_number(mass.density, "density");
     if (error.empty()) error = error_of_number(mass.mass, "mass");
     if (error.empty() && mass.center_of_mass && !mass.center_of_mass->allFinite()) {
-        error = "center_of_mass must be of finite numbers";
+        error = "center_of_mass must be finite";
     }
     if (error.empty() && mass.inertia) error = error_of_inertia(*mass.inertia);
     return error;

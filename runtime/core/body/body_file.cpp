@@ -183,11 +183,11 @@ LoadTables read_tables(const Hdf5Reader& file) {
     const auto error = [&](const char* what) {
         return Error(fmt::format("{}: /tables {}; bake the body again", file.path().string(), what));
     };
-    if (subdivisions < 1 || subdivisions > 1024) throw error("has a map of no sane size");
+    if (subdivisions < 1 || subdivisions > 1024) throw error("has a map of an invalid size");
     tables.subdivisions = static_cast<int>(subdivisions);
-    if (!(tables.reference_length > 0.0)) throw error("has no positive reference length");
+    if (!(tables.reference_length > 0.0)) throw error("has a reference length that is not positive");
     if (tables.reynolds_numbers.empty() || tables.reynolds_numbers.front() <= 0.0) {
-        throw error("holds no positive Reynolds number");
+        throw error("has a Reynolds number that is not positive");
     }
     for (std::size_t i = 1; i < tables.reynolds_numbers.size(); ++i) {
         if (tables.reynolds_numbers[i] <= tables.reynolds_numbers[i - 1]) {
@@ -250,7 +250,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
         try {
             file.expect_size(expected_size(body));
         } catch (const Error& error) {
-            throw Error(fmt::format("{}: {}; write elsewhere", path.string(), error.what()));
+            throw Error(fmt::format("{}: {}; write to another place", path.string(), error.what()));
         }
         file.attribute("/", "format_version", format_version);
         file.attribute("/", "samara_version", std::string_view(version));

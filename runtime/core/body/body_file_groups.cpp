@@ -105,10 +105,10 @@ void write_dynamic_coefficients(Hdf5Writer& file, const IdentifiedCoefficients& 
 
 IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
     if (is_of_an_earlier_form(file)) {
-        throw Error(fmt::format(
-            "{}: {} is of an earlier form, which this version cannot simulate; bake the body again, or "
-            "remove the group to use the defaults",
-            file.path().string(), coefficients_group));
+        throw Error(
+            fmt::format("{}: {} has an outdated form, which this version cannot simulate; bake the body "
+                        "again, or remove the group to use the defaults",
+                        file.path().string(), coefficients_group));
     }
     IdentifiedCoefficients coefficients{.values = read_numbers(file, ""),
                                         .standard_errors = read_numbers(file, "_error"),
@@ -116,7 +116,7 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
     coefficients.values.half_length = file.number_attribute(coefficients_group, "half_length");
     coefficients.values.origin = file.text_attribute(coefficients_group, "origin");
     const auto reject = [&](const std::string& what) {
-        throw Error(fmt::format("{}: {}/{}; put it right, or remove the group to use the defaults",
+        throw Error(fmt::format("{}: {}/{}; correct it, or remove the group to use the defaults",
                                 file.path().string(), coefficients_group, what));
     };
     if (const std::string error = error_of(coefficients.values); !error.empty()) reject(error);
@@ -146,7 +146,7 @@ MassSpecification read_mass(const Hdf5Reader& file) {
     if (file.has("/mass/density")) mass.density = file.finite_doubles("/mass/density", {1}).front();
     if (file.has("/mass/mass")) mass.mass = file.finite_doubles("/mass/mass", {1}).front();
     if (mass.density.has_value() == mass.mass.has_value()) {
-        throw Error(fmt::format("{}: /mass must hold a density or a mass, and not both; make the file again",
+        throw Error(fmt::format("{}: /mass must hold either a density or a mass; make the file again",
                                 file.path().string()));
     }
     if (file.has("/mass/center_of_mass")) {
@@ -185,8 +185,8 @@ PlannedRegion read_planned_region(const Hdf5Reader& file) {
     region.subdivisions = (side - 1) / 2;
     if (region.subdivisions < 1 ||
         planned.size() != static_cast<std::size_t>(side) * static_cast<std::size_t>(side) || side % 2 == 0) {
-        throw Error(fmt::format("{}: {} is no map of directions; bake the body again", file.path().string(),
-                                region_name));
+        throw Error(fmt::format("{}: {} is not a map of directions; bake the body again",
+                                file.path().string(), region_name));
     }
     for (const std::int32_t one : planned) region.planned.push_back(one != 0 ? 1 : 0);
     return region;

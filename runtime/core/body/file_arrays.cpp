@@ -21,7 +21,7 @@ Triples read_triples(const Hdf5Reader& file, const std::string& name, std::size_
     Triples triples(values.size() / 3);
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] < 0 || static_cast<std::size_t>(values[i]) >= vertex_count) {
-            throw Error(fmt::format("{}: {} row {} points at vertex {} of {}; make the file again",
+            throw Error(fmt::format("{}: {} row {} refers to vertex {} of {}; make the file again",
                                     file.path().string(), name, i / 3, values[i], vertex_count));
         }
         triples[i / 3][i % 3] = values[i];

@@ -20,8 +20,9 @@ using samara::require;
 
 void require_capacity(std::size_t capacity, std::size_t needed, const char* what) {
     if (capacity >= needed) return;
-    throw samara::StatusError(SAMARA_INVALID_ARGUMENT,
-                              fmt::format("capacity is {}, but the {} take {}", capacity, what, needed));
+    throw samara::StatusError(
+        SAMARA_INVALID_ARGUMENT,
+        fmt::format("capacity is {}, but the {} need {}; give a larger array", capacity, what, needed));
 }
 
 /// `untrusted`: whether a process of its own reads the file first.

@@ -27,7 +27,7 @@ auto& simulation_of(Simulation* simulation, std::size_t body) {
     auto& core = simulation->core;
     core.require_running();
     if (body >= core.size())
-        samara::reject("body", fmt::format("is {}, but there are {}", body, core.size()));
+        samara::reject("body", fmt::format("is {}, but there are {}; count from 0", body, core.size()));
     return core;
 }
 

@@ -24,7 +24,7 @@ void require_rules(const std::optional<BrokenRule>& broken) {
 double finite(double value, const char* member) {
     if (!std::isfinite(value)) reject(member, "is not a finite number");
     if (std::abs(value) > largest_number) {
-        reject(member, fmt::format("is {}, beyond {:.0e}; is a unit wrong?", value, largest_number));
+        reject(member, fmt::format("is {}, beyond {:.0e}; check the unit", value, largest_number));
     }
     return value;
 }

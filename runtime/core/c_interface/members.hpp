@@ -43,7 +43,7 @@ std::string plain_name(const char* name, const char* member);
 /// Returns one of the values of an enumeration from 0 to `last`.
 template <typename Choice>
 Choice choice(std::int32_t value, std::int32_t last, const char* member) {
-    if (value < 0 || value > last) reject(member, fmt::format("is {}, which names nothing", value));
+    if (value < 0 || value > last) reject(member, fmt::format("is {}, which is not a valid value", value));
     return static_cast<Choice>(value);
 }
 
@@ -51,11 +51,10 @@ Choice choice(std::int32_t value, std::int32_t last, const char* member) {
 template <typename Struct>
 Struct known_part(const Struct& given, Struct defaults, std::size_t first_size, const char* name) {
     if (given.size < first_size || given.size > sizeof(Struct)) {
-        throw StatusError(
-            SAMARA_INVALID_ARGUMENT,
-            fmt::format("{0}.size is {1}, but this library knows {2} to {3} bytes; fill the struct with "
-                        "samara_default_{0}, and use a library as new as samara.h",
-                        name, given.size, first_size, sizeof(Struct)));
+        throw StatusError(SAMARA_INVALID_ARGUMENT,
+                          fmt::format("{0}.size is {1}, but this library supports {2} to {3} bytes; fill the "
+                                      "struct with samara_default_{0}, and use a library as new as samara.h",
+                                      name, given.size, first_size, sizeof(Struct)));
     }
     std::memcpy(&defaults, &given, given.size);
     return defaults;
@@ -66,11 +65,10 @@ template <typename Struct>
 void fill(Struct* target, std::size_t size, const Struct& defaults, const char* name) {
     require(target, name);
     if (size < sizeof(std::size_t) || size > sizeof(Struct)) {
-        throw StatusError(
-            SAMARA_INVALID_ARGUMENT,
-            fmt::format("size is {}, but this library knows {} bytes of the {}; give sizeof, and use a "
-                        "library as new as samara.h",
-                        size, sizeof(Struct), name));
+        throw StatusError(SAMARA_INVALID_ARGUMENT,
+                          fmt::format("size is {}, but this library supports {} bytes for the {}; give "
+                                      "sizeof, and use a library as new as samara.h",
+                                      size, sizeof(Struct), name));
     }
     Struct filled = defaults;
     filled.size = size;

@@ -10,8 +10,9 @@ void require_bodies(const samara_simulation* simulation, std::size_t first, std:
     require(simulation, "simulation");
     const std::size_t bodies = simulation->core.size();
     if (first <= bodies && count <= bodies - first) return;
-    throw StatusError(SAMARA_INVALID_ARGUMENT, fmt::format("bodies {} to {} are asked for, but there are {}",
-                                                           first, first + count, bodies));
+    throw StatusError(SAMARA_INVALID_ARGUMENT,
+                      fmt::format("bodies {} to {} are requested, but there are {}; count from 0", first,
+                                  first + count, bodies));
 }
 
 std::size_t checked_stride(const samara_simulation* simulation, std::size_t first, std::size_t count,

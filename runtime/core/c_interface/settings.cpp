@@ -182,11 +182,10 @@ void require_data(const Body& body, const GivenGroup& group) {
     }
     const bool loads = group.loads == Loads::table;
     if ((loads || group.turbulence == Turbulence::table) && !body.tables) {
-        throw StatusError(
-            SAMARA_MISSING_DATA,
-            fmt::format("body '{0}' holds no tables, which {1} asks for; make them with 'samara bake', or "
-                        "set {1} otherwise",
-                        name, loads ? "loads" : "turbulence"));
+        throw StatusError(SAMARA_MISSING_DATA,
+                          fmt::format("body '{0}' holds no tables, which {1} needs; make them with 'samara "
+                                      "bake', or set {1} otherwise",
+                                      name, loads ? "loads" : "turbulence"));
     }
 }
 

@@ -82,8 +82,8 @@ samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
     } catch (const StatusError&) {
         throw;
     } catch (const samara::Error& caught) {
-        throw StatusError(SAMARA_INVALID_ARGUMENT,
-                          fmt::format("obstacle '{}' is no sound surface: {}", obstacle.name, caught.what()));
+        throw StatusError(SAMARA_INVALID_ARGUMENT, fmt::format("obstacle '{}' is not a valid surface: {}",
+                                                               obstacle.name, caught.what()));
     }
     if (const auto broken = samara::broken_rule(obstacle)) {
         samara::reject(broken->member, fmt::format("of obstacle '{}' {}", obstacle.name, broken->what));
@@ -125,7 +125,7 @@ samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obs
                            fmt::format("is {}, but there are {}", obstacle, core.obstacle_count()));
         }
         require(keys, "keys");
-        if (count < 1) samara::reject("count", "is 0; give one key at least");
+        if (count < 1) samara::reject("count", "is 0; give at least one key");
         const std::vector<samara::ObstacleKey> read = read_keys(keys, count);
         samara::require_rules(samara::broken_rule(read));
         core.set_obstacle_keys(obstacle, read);

@@ -53,10 +53,8 @@ void require_surface_loads(const Body& body, const BodyPhysics& physics, const s
                         name));
     }
     if (physics.turbulence != Turbulence::table) return;
-    throw Error(
-        fmt::format("body '{}': turbulence = \"table\" goes with loads = \"table\"; loads of the "
-                    "surface know no turbulence",
-                    name));
+    throw Error(fmt::format(
+        "body '{}': turbulence = \"table\" needs loads = \"table\"; surface loads have no turbulence", name));
 }
 
 /// Returns the tables that the steps read: those of the body file, or those made of its surface loads.
@@ -174,10 +172,10 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.added_coupling = fluid_inertia.topRightCorner<3, 3>();
     result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
     if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {
-        throw Error(fmt::format(
-            "body '{}': its inertia with the fluid's is not positive definite; compute the Kirchhoff "
-            "tensor with more triangles",
-            name));
+        throw Error(
+            fmt::format("body '{}': the sum of its inertia and its added inertia is not positive definite; "
+                        "compute the Kirchhoff tensor with more triangles",
+                        name));
     }
     result.contact_points = contact_points(body.surface, mass.center_of_mass);
     result.rotation_scale = rotation_scale(result.inertia, result.added_mass);
@@ -234,7 +232,7 @@ class NamedChecks {
     }
     template <typename Derived>
     void finite(const Eigen::MatrixBase<Derived>& values, std::string_view member) const {
-        require(values.allFinite(), member, "of finite numbers");
+        require(values.allFinite(), member, "finite");
     }
 
   private:
@@ -242,22 +240,22 @@ class NamedChecks {
 };
 
 void check_surface(const NamedChecks& checks, const Surface& surface) {
-    checks.require(!surface.corners.empty(), "surface", "of one triangle at least");
+    checks.require(!surface.corners.empty(), "surface", "a surface of at least one triangle");
     for (const Vector3d& vertex : surface.vertices) checks.finite(vertex, "surface.vertices");
     const auto count = static_cast<std::int64_t>(surface.vertices.size());
     for (const auto& triangle : surface.corners) {
         for (const auto corner : triangle) {
-            checks.require(corner >= 0 && corner < count, "surface.corners", "numbers of vertices");
+            checks.require(corner >= 0 && corner < count, "surface.corners", "indices of vertices");
         }
     }
 }
 
 void check_tables(const NamedChecks& checks, const LoadTables& tables) {
     checks.positive(tables.reference_length, "tables.reference_length");
-    checks.require(tables.subdivisions >= 1, "tables.subdivisions", "one at least");
+    checks.require(tables.subdivisions >= 1, "tables.subdivisions", "at least one");
     checks.finite(tables.axes, "tables.axes");
     const std::vector<double>& numbers = tables.reynolds_numbers;
-    checks.require(!numbers.empty(), "tables.reynolds_numbers", "one number at least");
+    checks.require(!numbers.empty(), "tables.reynolds_numbers", "at least one number");
     for (const double number : numbers) checks.positive(number, "tables.reynolds_numbers");
     checks.require(
         std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end(),
@@ -272,7 +270,7 @@ void check_tables(const NamedChecks& checks, const LoadTables& tables) {
         const bool sound = entry.force.allFinite() && entry.moment.allFinite() &&
                            std::isfinite(entry.turbulent_kinetic_energy) &&
                            std::isfinite(entry.dissipation_rate);
-        if (!sound) checks.require(false, fmt::format("tables.entries[{}]", i), "of finite numbers");
+        if (!sound) checks.require(false, fmt::format("tables.entries[{}]", i), "finite");
     }
 }
 
@@ -290,7 +288,7 @@ void check_turbulence(const NamedChecks& checks, const BodyPhysics& physics) {
     checks.non_negative(physics.turbulent_kinetic_energy, "turbulent_kinetic_energy");
     checks.non_negative(physics.dissipation_rate, "dissipation_rate");
     checks.require(physics.turbulent_kinetic_energy == 0.0 || physics.dissipation_rate > 0.0,
-                   "dissipation_rate", "above zero where turbulent_kinetic_energy is");
+                   "dissipation_rate", "above zero if turbulent_kinetic_energy is");
 }
 
 }  // namespace
@@ -308,8 +306,7 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     const MassSpecification mass = mass_asked_or_own(physics.mass, body);
     if (!mass.is_given()) {
         throw Error(fmt::format(
-            "body '{}': density is missing, and its body file says no mass either; give density or mass",
-            name));
+            "body '{}': has no density, and its body file has no mass; give density or mass", name));
     }
     if (const std::string error = error_of(mass); !error.empty()) {
         throw Error(fmt::format("body '{}': {}", name, error));

@@ -126,7 +126,7 @@ void enter_limits(const ConfinedLimits& limits) {
         send_message(pipe, MessageType::error, error.what());
     } catch (const std::bad_alloc&) {
         send_message(pipe, MessageType::error,
-                     fmt::format("{}: wants more than {:.1f} GB of memory; simplify it", label,
+                     fmt::format("{}: needs more than {:.1f} GB of memory; simplify it", label,
                                  1e-9 * limits.memory * bytes_of_memory()));
     } catch (const std::exception& error) {
         send_message(pipe, MessageType::error, fmt::format("{}: cannot be read: {}", label, error.what()));
@@ -189,8 +189,9 @@ class Messages {
         std::memcpy(&header, read_.data(), sizeof header);
         read_.erase(0, sizeof header);
         if (header.size > may_send_) {
-            throw Error(fmt::format("{}: its reader sends more than {:.3g} MB; is the file damaged?", label_,
-                                    1e-6 * static_cast<double>(limits_.sent_bytes)));
+            throw Error(fmt::format(
+                "{}: its reader returned more than {:.3g} MB; the file may be damaged: make it again", label_,
+                1e-6 * static_cast<double>(limits_.sent_bytes)));
         }
         may_send_ -= header.size;
         if (!fill(header.size)) return false;
@@ -234,10 +235,12 @@ class Messages {
                 idle_ = 0.0;
             }
             if (idle_ > limits_.idle_seconds) {
-                throw Error(fmt::format("{}: has waited for {:.0f} s without computing; does it read a pipe?",
-                                        label_, limits_.idle_seconds));
+                throw Error(fmt::format(
+                    "{}: its reader waited for {:.0f} s without computing; give a regular file, not a pipe",
+                    label_, limits_.idle_seconds));
             }
-            if (in_all_ > longest) throw Error(fmt::format("{}: takes more than {:.0f} s", label_, longest));
+            if (in_all_ > longest)
+                throw Error(fmt::format("{}: needs more than {:.0f} s; simplify it", label_, longest));
         }
     }
 
@@ -258,18 +261,20 @@ std::string first_line(const std::string& text) {
 
 [[noreturn]] void fail_by(int status, const std::string& label, const ConfinedLimits& limits) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) {
-        throw Error(label + ": tries to start a program, which a file that is read may not");
+        throw Error(label + ": tries to start a program, which is not allowed in a file; do not use it");
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-        throw Error(fmt::format("{}: takes more than {:.0f} s of computing", label, limits.cpu_seconds));
+        throw Error(
+            fmt::format("{}: needs more than {:.0f} s of CPU time; simplify it", label, limits.cpu_seconds));
     }
     if (WIFSIGNALED(status)) {
         const int signal = WTERMSIG(status);
         throw Error(
-            fmt::format("{}: cannot be read: the reader ended by signal {} ({}); is the file damaged?", label,
-                        signal, ::strsignal(signal)));
+            fmt::format("{}: cannot be read: the reader was ended by signal {} ({}); the file may be "
+                        "damaged: make it again",
+                        label, signal, ::strsignal(signal)));
     }
-    throw Error(label + ": ends the reader before it is read through");
+    throw Error(label + ": ended its reader before the end of the file; do not use it");
 }
 
 ConfinedLimits limits_for(const InputFile& input) {
@@ -293,7 +298,7 @@ void run_confined(const std::string& label, const ConfinedLimits& limits,
                   const std::function<void(std::string_view bytes)>& receive) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) {
-        throw Error(fmt::format("{}: no process to read it in: {}", label, std::strerror(errno)));
+        throw Error(fmt::format("{}: the reader process cannot be started: {}", label, std::strerror(errno)));
     }
     const pid_t parent = ::getpid();
     const pid_t process = ::fork();
@@ -302,7 +307,8 @@ void run_confined(const std::string& label, const ConfinedLimits& limits,
     ::close(ends[1]);
     if (process < 0) {
         ::close(ends[0]);
-        throw Error(fmt::format("{}: no process to read it in: {}", label, std::strerror(reason)));
+        throw Error(
+            fmt::format("{}: the reader process cannot be started: {}", label, std::strerror(reason)));
     }
     Child child(process);
     Messages messages(ends[0], child, label, limits);

@@ -114,7 +114,7 @@ bool verify_digest(const InputFile& file) {
     const FileState state = state_of(file);
     if (known_files().hold(state)) return true;
     if (digest_of(file, file.size() - digest_bytes) != end) {
-        throw Error(fmt::format("{}: is damaged (its digest is not that of its content); make it again",
+        throw Error(fmt::format("{}: is damaged (its digest does not match its content); make it again",
                                 file.path().string()));
     }
     // A file that was changed a moment ago may change again within its clock's tick.

@@ -68,8 +68,8 @@ TemporaryFolder::TemporaryFolder() {
     std::error_code unknown;
     const std::filesystem::path parent = std::filesystem::temp_directory_path(unknown);
     if (unknown) {
-        throw Error(
-            fmt::format("TMPDIR: is no folder ({}); set it to one that can be written", unknown.message()));
+        throw Error(fmt::format("TMPDIR: is not a folder ({}); set it to a folder that can be written",
+                                unknown.message()));
     }
     remove_folders_of_dead_processes(parent);
     // Another process may take the new folder for an abandoned one before it is locked; some file systems
@@ -79,7 +79,7 @@ TemporaryFolder::TemporaryFolder() {
         std::string pattern = (parent / prefix).string() + "XXXXXX";
         if (::mkdtemp(pattern.data()) == nullptr) {
             throw Error(fmt::format(
-                "{}: no temporary folder can be made: {}; set TMPDIR to a folder that can be written",
+                "{}: a temporary folder cannot be created: {}; set TMPDIR to a folder that can be written",
                 parent.string(), std::strerror(errno)));
         }
         path_ = pattern;
@@ -103,8 +103,8 @@ fs::path find_share_folder(const ShareFolder& share) {
         if (is_one(chosen)) return chosen;
         const bool is_folder = fs::is_directory(chosen, unknown);
         throw Error(fmt::format("{} names {}, which {}{}; unset it, or name the folder of {}", share.variable,
-                                chosen, is_folder ? "holds no " : "is no folder", is_folder ? share.mark : "",
-                                share.contents));
+                                chosen, is_folder ? "holds no " : "is not a folder",
+                                is_folder ? share.mark : "", share.contents));
     }
     const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
     const fs::path installed = program.parent_path().parent_path() / "share/samara" / share.name;

@@ -119,24 +119,24 @@ bool is_integer(const H5::DataType& type) {
 StorageClaim storage_claim(const H5::DataSet& dataset) {
     const H5::DSetCreatPropList creation = dataset.getCreatePlist();
     const H5D_layout_t layout = creation.getLayout();
-    if (layout == H5D_VIRTUAL || creation.getExternalCount() > 0) return {"is kept in other files"};
+    if (layout == H5D_VIRTUAL || creation.getExternalCount() > 0) return {"is stored in other files"};
     if (is_encoded(creation)) return {"is compressed or encoded"};
     const H5::DataType type = dataset.getDataType();
     if (!is_real(type) && !is_integer(type)) return {"holds values of another type"};
     const auto shape = shape_of(dataset.getSpace());
     if (!shape) return {"holds nothing"};
     const std::optional<hsize_t> wanted = bytes_of(*shape, type.getSize());
-    if (!wanted) return {"claims more values than can be counted"};
+    if (!wanted) return {"declares too many values"};
     if (*wanted == 0) return {};
     const hsize_t stored = dataset.getStorageSize();
     const bool fits = layout == H5D_CHUNKED ? bytes_of_chunks(creation, *shape, type.getSize()) == stored
                                             : *wanted <= stored;
-    if (!fits) return {"claims values that are not stored"};
+    if (!fits) return {"declares values that are not stored"};
     return {{}, stored};
 }
 
 std::string error_of_chunks(const H5::DataSet& dataset) {
-    const std::string other_size = "has a chunk of another size than its values take";
+    const std::string other_size = "has a chunk whose size does not match its values";
     const H5::DSetCreatPropList creation = dataset.getCreatePlist();
     if (creation.getLayout() != H5D_CHUNKED) return {};
     const std::vector<hsize_t> shape = shape_of(dataset.getSpace()).value();
@@ -168,14 +168,15 @@ std::string error_of_chunks(const H5::DataSet& dataset) {
 
 std::string error_of_number(const H5::Attribute& attribute, bool integer) {
     const H5::DataType type = attribute.getDataType();
-    if (!is_integer(type) && (integer || !is_real(type))) return integer ? "is no integer" : "is no number";
-    return holds_one_value(attribute) ? "" : "is not one value";
+    if (!is_integer(type) && (integer || !is_real(type)))
+        return integer ? "is not an integer" : "is not a number";
+    return holds_one_value(attribute) ? "" : "is not a single value";
 }
 
 std::string error_of_text(const H5::Attribute& attribute, std::uint64_t most_bytes) {
     const H5::DataType type = attribute.getDataType();
-    if (type.getClass() != H5T_STRING || type.isVariableStr()) return "is no text of fixed length";
-    if (!holds_one_value(attribute)) return "is not one value";
+    if (type.getClass() != H5T_STRING || type.isVariableStr()) return "is not a string of fixed length";
+    if (!holds_one_value(attribute)) return "is not a single value";
     return type.getSize() <= most_bytes ? "" : "is longer than the file";
 }
 

@@ -48,11 +48,11 @@ H5::H5File open_for_reading(const InputFile& input) {
         return {input.name(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
     } catch (const H5::Exception&) {
         throw Error(
-            fmt::format("{}: is not an HDF5 file, or was cut short; make it again", input.path().string()));
+            fmt::format("{}: is not an HDF5 file, or is truncated; make it again", input.path().string()));
     }
 }
 
-constexpr const char* damaged = "is damaged (its checksum is wrong or it was cut short)";
+constexpr const char* damaged = "is damaged (its checksum is wrong or it is truncated)";
 
 }  // namespace
 
@@ -71,7 +71,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
     haddr_t end = 0;
     if (!has_digest_ && (H5Fget_eoa(file_.getId(), &end) < 0 || end < input_.size())) {
         throw Error(
-            fmt::format("{}: is damaged (it goes on behind its content); make it again", path().string()));
+            fmt::format("{}: is damaged (it has bytes after its content); make it again", path().string()));
     }
 }
 
@@ -93,8 +93,7 @@ bool Hdf5Reader::has(const std::string& name) const {
             H5L_info_t link = {};
             if (H5Lget_info(file_.getId(), step.c_str(), &link, H5P_DEFAULT) < 0) throw error(step, damaged);
             // Other links may lead anywhere, such as to other files.
-            if (link.type != H5L_TYPE_HARD)
-                throw error(step, "is a link to elsewhere, which is not followed");
+            if (link.type != H5L_TYPE_HARD) throw error(step, "is an external link, which is not followed");
             if (end == std::string::npos) return true;
         }
     } catch (const H5::Exception&) {
@@ -107,7 +106,7 @@ H5::Group Hdf5Reader::open_group(const std::string& name) const {
     try {
         return file_.openGroup(name);
     } catch (const H5::Exception&) {
-        throw error(name, "is no group");
+        throw error(name, "is not a group");
     }
 }
 
@@ -115,7 +114,7 @@ void Hdf5Reader::charge(const std::string& name, const H5::DataSet& dataset) con
     if (judged_.contains(name)) return;
     const StorageClaim claim = storage_claim(dataset);
     if (!claim.error.empty()) throw error(name, claim.error);
-    if (claim.bytes > input_.size() - claimed_) throw error(name, "claims more bytes than the file has");
+    if (claim.bytes > input_.size() - claimed_) throw error(name, "declares more bytes than the file has");
     const std::string wrong = claim.bytes > 0 ? error_of_chunks(dataset) : "";
     if (!wrong.empty()) throw error(name, wrong);
     claimed_ += claim.bytes;
@@ -129,7 +128,7 @@ H5::DataSet Hdf5Reader::open(const std::string& name) const {
         charge(name, dataset);
         return dataset;
     } catch (const H5::Exception&) {
-        throw error(name, "is no dataset, or is damaged");
+        throw error(name, "is not a dataset, or is damaged");
     }
 }
 
@@ -139,9 +138,9 @@ H5::DataSet Hdf5Reader::open(const std::string& name, const std::vector<hsize_t>
                       std::equal(found.begin(), found.end(), dimensions.begin(),
                                  [](hsize_t is, hsize_t wanted) { return wanted == 0 || is == wanted; });
     if (!fits) {
-        throw error(name, fmt::format("has the shape {}, not {} (0: any), so the file is of another type or "
-                                      "was changed",
-                                      found, dimensions));
+        throw error(name,
+                    fmt::format("has the shape {}, not {} (0: any): the file has another type or was changed",
+                                found, dimensions));
     }
     return open(name);
 }
@@ -258,7 +257,7 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
         text.resize(std::min(text.size(), text.find('\0')));
         return text;
     } catch (const H5::Exception&) {
-        throw attribute_error(object, name, "is no text");
+        throw attribute_error(object, name, "is not a string");
     }
 }
 

@@ -214,7 +214,7 @@ void Hdf5Writer::expect_size(std::uintmax_t bytes) {
     } else if (errno == ENOSPC || errno == EFBIG || errno == EDQUOT) {
         const int reason = errno;
         abandon();
-        throw Error(fmt::format("there is no room for its {:.3g} GB: {}", static_cast<double>(bytes) / 1e9,
+        throw Error(fmt::format("there is no space for its {:.3g} GB: {}", static_cast<double>(bytes) / 1e9,
                                 std::strerror(reason)));
     }
 }
@@ -247,9 +247,9 @@ void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5
                 throw;
             }
         } catch (const H5::Exception& failure) {
-            throw Error(
-                fmt::format("{}: cannot be written ({}); is the folder writable and the disk not full?",
-                            file.string(), failure.getDetailMsg()));
+            throw Error(fmt::format(
+                "{}: cannot be written ({}); check the folder's permissions and the free disk space",
+                file.string(), failure.getDetailMsg()));
         }
         append_digest(temporary);
         Hdf5Reader::trust(temporary);

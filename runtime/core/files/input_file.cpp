@@ -19,7 +19,7 @@ namespace {
 constexpr const char* is_folder = "is a folder; give a file";
 
 std::string in_words(int reason) {
-    return reason == ENOENT ? "there is no such file"
+    return reason == ENOENT ? "does not exist; check the name"
                             : fmt::format("cannot be read: {}", std::strerror(reason));
 }
 
@@ -112,9 +112,10 @@ std::size_t InputFile::read_at(std::uint64_t place, char* bytes, std::size_t siz
 
 std::string InputFile::bytes(std::size_t most) const {
     if (size_ > most) {
-        throw error(path_, fmt::format("holds more than {} bytes; is it the right file?", most));
+        throw error(path_, fmt::format("has more than {} bytes; check that it is the right file", most));
     }
-    require_memory(static_cast<double>(size_), path_.string() + ": its content", "is it the right file?");
+    require_memory(static_cast<double>(size_), path_.string() + ": its content",
+                   "check that it is the right file");
     std::string bytes(size_, '\0');
     bytes.resize(read_at(0, bytes.data(), bytes.size()));
     return bytes;
@@ -139,7 +140,7 @@ FileState state_of(const InputFile& file) {
 std::string error_of_json_size(std::string_view text) {
     if (text.size() > most_bytes) return fmt::format("is longer than {} MB", most_bytes >> 20U);
     if (depth_of(text) <= most_json_depth) return {};
-    return fmt::format("nests more than {} lists and objects", most_json_depth);
+    return fmt::format("nests lists and objects more than {} deep", most_json_depth);
 }
 
 }  // namespace samara

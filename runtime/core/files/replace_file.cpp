@@ -142,7 +142,7 @@ void require_folder_to_make(const std::filesystem::path& folder) {
         there = there.has_parent_path() && there != there.parent_path() ? there.parent_path() : ".";
     }
     if (!std::filesystem::is_directory(there, unknown)) {
-        throw Error(fmt::format("{}: cannot be made, since {} is a file; give another folder",
+        throw Error(fmt::format("{}: cannot be created, as {} is a file; give another folder",
                                 folder.string(), there.string()));
     }
     if (::access(there.c_str(), W_OK | X_OK) != 0) throw cannot_be_written(folder);

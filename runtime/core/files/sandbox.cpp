@@ -32,7 +32,7 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
 #elif defined(__aarch64__)
 constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
 #else
-#error "the numbers of this processor's system calls are not known to the sandbox"
+#error "the sandbox does not support this processor"
 #endif
 
 // The system calls that computing, threads, memory and reading take, on all processors and on x86-64 alone.
@@ -254,7 +254,7 @@ void enter_sandbox(const std::vector<std::filesystem::path>& readable) {
     }
     read_beneath(folders);
     if (!allow_computing_and_reading_alone()) {
-        throw Error(fmt::format("this system offers no seccomp filter to read untrusted files under: {}",
+        throw Error(fmt::format("the sandbox needs seccomp filters, which this system does not support: {}",
                                 std::strerror(errno)));
     }
 }

@@ -46,11 +46,9 @@ Broken jump_of(const Obstacle& obstacle) {
         const ObstacleMotion motion = motion_of(obstacle, keys[i - 1].time);
         const double fastest = motion.velocity.norm() + reach * motion.angular_velocity.norm();
         if (fastest <= most_key_speed) continue;
-        return BrokenRule{
-            "keys",
-            fmt::format("jump: from {:g} s to {:g} s the mesh moves at {:.3g} m/s, and {:g} is the most; put "
-                        "them farther apart in time",
-                        keys[i - 1].time, keys[i].time, fastest, most_key_speed)};
+        return BrokenRule{"keys", fmt::format("are too fast: from {:g} s to {:g} s the mesh moves at {:.3g} "
+                                              "m/s, above the limit of {:g}; increase the time between them",
+                                              keys[i - 1].time, keys[i].time, fastest, most_key_speed)};
     }
     return std::nullopt;
 }
@@ -66,14 +64,14 @@ Broken broken_rule(const Fluid& fluid) {
 Broken broken_rule(const MassSpecification& mass) {
     const bool is_askew =
         mass.inertia && (*mass.inertia - mass.inertia->transpose()).norm() > 1e-9 * mass.inertia->norm();
-    return first_of(
-        {outside(positive_number, "density", mass.density), outside(positive_number, "mass", mass.mass),
-         broken_if(is_askew, "inertia", "must be symmetric"),
-         broken_if(mass.density && mass.mass, "density", "stands beside mass; give one of the two"),
-         broken_if(!mass.mass && (mass.center_of_mass || mass.inertia),
-                   mass.inertia ? "inertia" : "center_of_mass",
-                   mass.density ? "contradicts a uniform density; give mass instead of density"
-                                : "stands alone; give mass with it")});
+    return first_of({outside(positive_number, "density", mass.density),
+                     outside(positive_number, "mass", mass.mass),
+                     broken_if(is_askew, "inertia", "must be symmetric"),
+                     broken_if(mass.density && mass.mass, "density", "excludes mass; give one of the two"),
+                     broken_if(!mass.mass && (mass.center_of_mass || mass.inertia),
+                               mass.inertia ? "inertia" : "center_of_mass",
+                               mass.density ? "contradicts a uniform density; give mass instead of density"
+                                            : "needs mass; give mass too")});
 }
 
 Broken broken_rule(const BodyPhysics& physics) {
@@ -93,12 +91,13 @@ Broken broken_rule(const BodyPhysics& physics) {
          broken_if(physics.turbulence == Turbulence::constant && (energy > 0.0) != (dissipation > 0.0),
                    "dissipation_rate", "and turbulent_kinetic_energy must be both zero or both above zero"),
          broken_if(physics.loads == Loads::surface && stirs_by_table, "turbulence",
-                   R"(is of tables, and the loads are not; set loads = "table", or )"
+                   R"(needs loads by table; set loads = "table", or )"
                    R"(turbulence to "none" or "constant")"),
          outside(positive_number, "table_reynolds_number", physics.table_reynolds_number),
-         broken_if(physics.table_reynolds_number && physics.loads != Loads::table && !stirs_by_table,
-                   "table_reynolds_number",
-                   "is for loads or turbulence from the table; remove it or set one of them to \"table\"")});
+         broken_if(
+             physics.table_reynolds_number && physics.loads != Loads::table && !stirs_by_table,
+             "table_reynolds_number",
+             "applies only to loads or turbulence by table; remove it or set one of them to \"table\"")});
 }
 
 Broken broken_rule(const Release& release) {
@@ -110,20 +109,21 @@ Broken broken_rule(const Release& release) {
          outside({0.0, std::numbers::pi, "must lie between 0 and pi"}, "spread.angle", release.spread_angle),
          outside(non_negative_number, "spread.start", release.spread_start),
          broken_if(!are_sizes, "spread.size",
-                   "must be the smallest and the largest size over the shape's, within 0.001 and "
-                   "1000, as 0.8 and 1.25"),
+                   "must be the smallest and the largest size relative to the shape, within 0.001 and 1000, "
+                   "such as 0.8 and 1.25"),
          broken_if(release.count == 1 && release.spreads(), "count",
-                   "is 1, but places, turns, starts or sizes are spread: they are of several; "
-                   "give a count above 1, or no spread")});
+                   "is 1, but a spread of places, rotations, starts or sizes needs several copies; give a "
+                   "count above 1, or no spread")});
 }
 
 Broken broken_rule(const std::vector<ObstacleKey>& keys) {
     for (std::size_t i = 1; i < keys.size(); ++i) {
         if (keys[i].time > keys[i - 1].time) continue;
-        return BrokenRule{"keys",
-                          fmt::format("are out of order: the time of key {}, {} s, must be later than "
-                                      "that of the key before",
-                                      i, keys[i].time)};
+        return BrokenRule{
+            "keys",
+            fmt::format(
+                "are out of order: the time of key {}, {} s, must be later than that of the previous key", i,
+                keys[i].time)};
     }
     return std::nullopt;
 }

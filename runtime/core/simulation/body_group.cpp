@@ -64,7 +64,7 @@ BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& sur
       before_time_(batch_.size(), 0.0) {
     if (release.start / step_ > most_steps_off) {
         throw SimulationError(SimulationError::Reason::invalid_argument,
-                              fmt::format("start {} s is more than {:.0e} steps off; is a unit wrong?",
+                              fmt::format("start {} s is more than {:.0e} steps away; check the unit",
                                           release.start, most_steps_off));
     }
     if (collide_) {
@@ -99,7 +99,7 @@ void BodyGroup::draw_starts(const SimulationSettings& settings) {
         if (!is_sound(state)) {
             throw SimulationError(
                 SimulationError::Reason::invalid_argument,
-                fmt::format("body {} of '{}' starts beyond the range of numbers", i, name_));
+                fmt::format("body {} of '{}' starts beyond the range of numbers; check the units", i, name_));
         }
         const TouchingBody& touching = batch_.touching(i);
         require_above_ground(touching, name_, surroundings_, start(i), state, i % copies, copies);
@@ -236,11 +236,10 @@ void BodyGroup::remove(std::size_t index, double time) {
 
 FluidLoad BodyGroup::fluid_load(std::size_t index, double time) const {
     if (std::abs(reached() - time) > 1e-6 * step_) {
-        throw SimulationError(
-            SimulationError::Reason::invalid_argument,
-            fmt::format("fluid loads are those of a whole step, but {:.9g} s lies within one: "
-                        "advance by multiples of the step, {:g} s",
-                        time, step_));
+        throw SimulationError(SimulationError::Reason::invalid_argument,
+                              fmt::format("fluid loads are available at whole steps only, but {:.9g} s is "
+                                          "within a step; advance by multiples of the step, {:g} s",
+                                          time, step_));
     }
     return fluid_load_of(*body_, size_of(index), surroundings_, release_.start, step_,
                          batch_.own_state(index), noise_of(seed_, first_run_, index), steps_);
@@ -266,11 +265,10 @@ void BodyGroup::keep_steps(const BatchReport& done, std::uint64_t count) {
                  .steps_at_limit = done.steps_at_limit});
     steps_ += count;
     if (!done.wind_is_sound) {
-        throw SimulationError(
-            SimulationError::Reason::out_of_range,
-            fmt::format("the wind function gave '{}' a velocity that is not finite, or beyond "
-                        "1e30 m/s, by {:.6g} s",
-                        name_, release_.start + time_of(steps_)));
+        throw SimulationError(SimulationError::Reason::out_of_range,
+                              fmt::format("the wind function returned a velocity for '{}' that is not "
+                                          "finite, or beyond 1e30 m/s, at {:.6g} s",
+                                          name_, release_.start + time_of(steps_)));
     }
     if (steps_ % steps_between_samples != 0) return;
     require_finite();
@@ -289,10 +287,9 @@ std::uint64_t BodyGroup::steps_between(std::uint64_t begin, std::uint64_t end) c
 void BodyGroup::require_finite() const {
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         if (is_finite(batch_.state(i))) continue;
-        throw SimulationError(
-            SimulationError::Reason::out_of_range,
-            fmt::format("body {} ('{}') left the range of numbers by {:.6g} s; use a smaller step",
-                        first_ + i, name_, release_.start + time_of(steps_)));
+        throw SimulationError(SimulationError::Reason::out_of_range,
+                              fmt::format("body {} ('{}') diverged at {:.6g} s; use a smaller step",
+                                          first_ + i, name_, release_.start + time_of(steps_)));
     }
 }
 

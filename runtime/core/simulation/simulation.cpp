@@ -94,7 +94,7 @@ double StepReport::share_below_table() const {
 Simulation::Simulation(const SimulationSettings& settings) : members_(std::make_unique<Parts>()) {
     if (!(settings.step > 0.0 && std::isfinite(settings.step)) || settings.runs < 1) {
         reject(SimulationError::Reason::invalid_argument,
-               "a simulation needs a step above zero and one run at least");
+               "a simulation needs a step above zero and at least one run");
     }
     members_->settings = settings;
     members_->broadphase = Broadphase(settings.step, settings.runs, settings.threads);
@@ -113,14 +113,15 @@ std::size_t Simulation::add(const LoadedBody& body, const BodyPhysics& physics, 
                             const std::string& given_name) {
     if (release.start < members_->time) {
         reject(SimulationError::Reason::invalid_argument,
-               fmt::format("start is {} s, but the simulation is at {} s; let the bodies start then or later",
-                           release.start, members_->time));
+               fmt::format(
+                   "start is {} s, but the simulation is at {} s; start the bodies at that time or later",
+                   release.start, members_->time));
     }
     const std::string name = given_name.empty() ? body.body->name : given_name;
     for (const auto& other : members_->groups) {
         if (other->name() != name) continue;
         reject(SimulationError::Reason::invalid_argument,
-               fmt::format("the name '{}' is taken by another body group; give this one another", name));
+               fmt::format("another body group already has the name '{}'; choose another name", name));
     }
     const std::size_t first = members_->size;
     members_->groups.push_back(std::make_unique<BodyGroup>(members_->settings, members_->surroundings, body,
@@ -139,7 +140,7 @@ std::size_t Simulation::add_obstacle(Obstacle obstacle) {
         for (const ObstacleFaces& other : set->obstacles()) {
             if (other.obstacle().name != obstacle.name) continue;
             reject(SimulationError::Reason::invalid_argument,
-                   fmt::format("the name '{}' is taken by another obstacle; give this one another",
+                   fmt::format("another obstacle already has the name '{}'; choose another name",
                                obstacle.name));
         }
         set->add(std::move(obstacle));
@@ -228,15 +229,13 @@ void Simulation::require_time(double time) const {
     if (!std::isfinite(time))
         reject(SimulationError::Reason::invalid_argument, "time is not a finite number");
     if (time < members_->time) {
-        reject(
-            SimulationError::Reason::time_passed,
-            fmt::format("the simulation is at {} s and cannot go back to {} s; restore a state from before",
-                        members_->time, time));
+        reject(SimulationError::Reason::time_passed,
+               fmt::format("the simulation is at {} s and cannot go back to {} s; restore an earlier state",
+                           members_->time, time));
     }
     if (time / members_->settings.step > most_steps_off) {
-        reject(
-            SimulationError::Reason::invalid_argument,
-            fmt::format("time {} s is more than {:.0e} steps off; is a unit wrong?", time, most_steps_off));
+        reject(SimulationError::Reason::invalid_argument,
+               fmt::format("time {} s is more than {:.0e} steps away; check the unit", time, most_steps_off));
     }
 }
 
@@ -338,7 +337,7 @@ void Simulation::watch_contacts(bool watch) {
 ContactRecord Simulation::take_contacts(std::size_t index) {
     if (!members_->watches_contacts) {
         reject(SimulationError::Reason::invalid_argument,
-               "contacts are not noted; call watch_contacts before they happen");
+               "contacts are not recorded; call watch_contacts before they happen");
     }
     BodyGroup& group = group_of(index);
     return group.take_contacts(index - group.first());
@@ -424,7 +423,7 @@ void Simulation::set_state(std::string_view bytes) {
     const std::string_view payload = opened_state(bytes, fingerprint(), fixed_state_size());
     // A state that others sealed may hold anything: all of it is checked before any of it is kept.
     if (!read_state(payload, false)) {
-        reject(SimulationError::Reason::foreign_state, "the state holds numbers that no simulation has");
+        reject(SimulationError::Reason::foreign_state, "the state holds invalid numbers; save it again");
     }
     read_state(payload, true);
 }

@@ -124,8 +124,8 @@ std::string sealed_state(std::string_view payload, std::string_view fingerprint)
 
 std::string_view opened_state(std::string_view bytes, std::string_view fingerprint,
                               std::size_t least_payload) {
-    if (bytes.substr(0, mark.size()) != mark) reject("the bytes are no state of a simulation");
-    if (bytes.size() < seal_size()) reject("the state is cut short");
+    if (bytes.substr(0, mark.size()) != mark) reject("the bytes are not a state of a simulation");
+    if (bytes.size() < seal_size()) reject("the state is truncated");
     StateReader numbers(bytes.substr(mark.size()));
     std::uint32_t version = 0;
     std::uint32_t order = 0;
@@ -135,16 +135,19 @@ std::string_view opened_state(std::string_view bytes, std::string_view fingerpri
     numbers.read(size);
     if (order != byte_order) reject("the state is from a machine with another byte order");
     if (version != state_version) {
-        reject(fmt::format("the state has version {}, this library reads {}", version, state_version));
+        reject(fmt::format("the state has version {}, but this library reads {}; save it again", version,
+                           state_version));
     }
     if (bytes.size() - seal_size() != size) {
-        reject(fmt::format("the state has {} bytes, but {} are there", size + seal_size(), bytes.size()));
+        reject(fmt::format("the state should have {} bytes, but has {}", size + seal_size(), bytes.size()));
     }
     const std::string_view whole = bytes.substr(0, bytes.size() - hash_size);
     if (content_hash(whole) != bytes.substr(whole.size())) reject("the state is damaged");
     const std::size_t head = seal_size() - 2 * hash_size;
     if (size < least_payload || content_hash(fingerprint) != bytes.substr(head, hash_size)) {
-        reject("the state is of a simulation with other settings, body groups or bodies");
+        reject(
+            "the state belongs to a simulation with other settings, body groups or bodies; restore it into "
+            "an equal simulation");
     }
     return whole.substr(head + hash_size);
 }

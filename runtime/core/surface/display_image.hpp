@@ -14,7 +14,7 @@ inline constexpr std::size_t most_image_bytes = 64U << 20U;
 
 /// The most bytes of all images of a display mesh together, which may be parts of the same bytes.
 inline constexpr std::size_t most_image_bytes_together = 256U << 20U;
-inline constexpr const char* too_many_images = "has images of more than 256 MB together";
+inline constexpr const char* too_many_images = "has images of more than 256 MB in total";
 
 /// Returns "png" or "jpg" by the first bytes of an image file; nullptr where it is neither or too large.
 inline const char* image_type(std::string_view bytes) {

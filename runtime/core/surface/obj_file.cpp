@@ -114,8 +114,8 @@ class ObjReader {
     /// A link could otherwise show any file that the user may read.
     void require_beneath(const InputFile& input, const std::filesystem::path& folder) const {
         if (input.is_beneath(folder)) return;
-        throw Error(fmt::format("{}: {} is a link that leads out of the folder; put the file itself there",
-                                label_, input.path().string()));
+        throw Error(fmt::format("{}: {} is a link to outside of the folder; replace it by the file", label_,
+                                input.path().string()));
     }
 
     /// Returns the number of the image that a line of a file of materials names behind its options, at
@@ -218,12 +218,10 @@ class ObjReader {
             if (with_display_) words_.emplace_back(absolute(word));
         }
         if (corners_.size() < 3)
-            fail(fmt::format("a face has three or more corners, not {}", corners_.size()));
+            fail(fmt::format("a face must have three or more corners, not {}", corners_.size()));
         if (corners_.size() > most_obj_corners) {
-            fail(fmt::format(
-                "a face of {} corners, where {} are the most; cut it into triangles where the file is "
-                "made",
-                corners_.size(), most_obj_corners));
+            fail(fmt::format("a face has {} corners, more than {}; export the file with triangles",
+                             corners_.size(), most_obj_corners));
         }
         const auto triangles = polygon_triangles(surface_.vertices, corners_);
         surface_.corners.insert(surface_.corners.end(), triangles.begin(), triangles.end());
@@ -256,7 +254,7 @@ class ObjReader {
         const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
         const bool is_read = failure == std::errc{} && end == digits.data() + digits.size();
         if (!is_read || number == 0 || number > count || number < -count) {
-            fail(fmt::format("a face names {} '{}' of {}", what, word, count));
+            fail(fmt::format("a face refers to {} '{}' of {}", what, word, count));
         }
         return static_cast<std::size_t>(number > 0 ? number - 1 : count + number);
     }

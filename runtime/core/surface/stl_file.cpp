@@ -51,15 +51,15 @@ Surface read_binary(std::string_view bytes, const std::string& name) {
     const bool is_text = std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c == 0; });
     if (bytes.size() < header_size || (is_text && bytes.size() < expected)) {
         throw Error(
-            fmt::format("{}: is no STL file: one in text begins with 'solid', and {} bytes are none in "
-                        "binary; export it again",
+            fmt::format("{}: is not an STL file: a text file begins with 'solid', and a binary file has more "
+                        "than {} bytes; export it again",
                         name, bytes.size()));
     }
     if (bytes.size() < expected) {
-        throw Error(fmt::format(
-            "{}: is no STL file, or is cut short: {} bytes, where {} triangles take {}; export it "
-            "again",
-            name, bytes.size(), count, expected));
+        throw Error(
+            fmt::format("{}: is not an STL file, or is truncated: it has {} bytes, but {} triangles need {}; "
+                        "export it again",
+                        name, bytes.size(), count, expected));
     }
     Surface surface;
     for (std::size_t t = 0; t < count; ++t) {
@@ -87,7 +87,7 @@ class TextReader {
         });
         if (in_loop_) {
             throw Error(
-                fmt::format("{}: is cut short within a face at line {}; export it again", label_, line_));
+                fmt::format("{}: is truncated within a face at line {}; export it again", label_, line_));
         }
         return std::move(surface_);
     }

@@ -63,10 +63,10 @@ void require_no_stray_face(const Surface& surface, const std::vector<std::span<c
         const bool alone = open_sides[t] == 3 && surface.triangle_count() > 1;
         const bool hanging = open_sides[t] > 0 && open_sides[t] + crowded_sides[t] == 3;
         if (alone || hanging) {
-            throw Error(fmt::format(
-                "face {} at {} is stray: {}; delete it", t + 1, place(triangle_centroid(surface, t)),
-                alone ? "it shares no edge with another face"
-                      : "it hangs on the surface by an edge that has its two faces already"));
+            throw Error(fmt::format("face {} at {} is not part of the surface: {}; delete it", t + 1,
+                                    place(triangle_centroid(surface, t)),
+                                    alone ? "it shares no edge with another face"
+                                          : "it shares an edge that already has two faces"));
         }
     }
 }
@@ -74,8 +74,8 @@ void require_no_stray_face(const Surface& surface, const std::vector<std::span<c
 void require_two_faces_at_most(const Surface& surface, const std::span<const EdgeUse>& edge) {
     if (edge.size() <= 2) return;
     throw Error(fmt::format(
-        "{} faces share the edge from {} to {}; a body's surface has two at each edge: "
-        "delete inner faces, or join the parts into one solid",
+        "{} faces share the edge from {} to {}; an edge must have two: delete inner faces, or join the parts "
+        "into one solid",
         edge.size(), place(vertex(surface, edge.front().low)), place(vertex(surface, edge.front().high))));
 }
 
@@ -90,7 +90,7 @@ void require_two_faces_at_each_edge(const Surface& surface,
     if (open > 0) {
         throw Error(fmt::format(
             "is not closed: {}, the first from {} to {}; fill the hole (in Blender: Mesh > Clean Up > Fill "
-            "Holes), or give a sheet its thickness (in Blender: the Solidify modifier)",
+            "Holes), or give a sheet a thickness (in Blender: the Solidify modifier)",
             count_of(open, "edge has a face on one side only", "edges have a face on one side only"),
             place(vertex(surface, first_open->low)), place(vertex(surface, first_open->high))));
     }
@@ -124,10 +124,9 @@ void require_one_fan_at_each_vertex(const Surface& surface) {
                 ++count;
             } while (current != static_cast<std::int32_t>(start) && count <= faces_at[as_index(centre)]);
             if (count < faces_at[as_index(centre)]) {
-                throw Error(
-                    fmt::format("separate sheets of the surface touch in the corner at {}; split that "
-                                "corner or move it",
-                                place(vertex(surface, centre))));
+                throw Error(fmt::format(
+                    "separate parts of the surface touch at the corner {}; split that corner or move it",
+                    place(vertex(surface, centre))));
             }
         }
     }
@@ -140,9 +139,9 @@ void require_shared_edge_nodes(const Surface& surface, const std::vector<std::sp
     };
     for (const auto& edge : edges) {
         if (node(edge[0]) != node(edge[1])) {
-            throw Error(fmt::format("the curved faces {} and {} gape at {}; export the file again",
-                                    edge[0].triangle + 1, edge[1].triangle + 1,
-                                    place(vertex(surface, node(edge[0])))));
+            throw Error(fmt::format(
+                "there is a gap between the curved faces {} and {} at {}; export the file again",
+                edge[0].triangle + 1, edge[1].triangle + 1, place(vertex(surface, node(edge[0])))));
         }
     }
 }
@@ -151,7 +150,7 @@ void require_curved_faces_to_stay_flat_enough(const Surface& surface) {
     const std::vector<std::int32_t> overturned = overturned_triangles(surface);
     if (overturned.empty()) return;
     const std::int32_t first = overturned.front();
-    throw Error(fmt::format("the curved face {} at {} overturns; use more triangles, or order 1", first + 1,
+    throw Error(fmt::format("the curved face {} at {} folds over; use more triangles, or order 1", first + 1,
                             place(triangle_centroid(surface, as_index(first)))));
 }
 
@@ -172,7 +171,7 @@ void require_faces_to_agree(const Surface& surface, const std::vector<Component>
     if (reversed.empty()) return;
     const std::int32_t first = *std::min_element(reversed.begin(), reversed.end());
     throw Error(
-        fmt::format("{} of {} faces {} turned against the others, the first is face {} at {}; make the "
+        fmt::format("{} of {} faces {} oriented against the others, the first is face {} at {}; make the "
                     "normals consistent",
                     reversed.size(), surface.triangle_count(), reversed.size() == 1 ? "is" : "are", first + 1,
                     place(triangle_centroid(surface, as_index(first)))));
@@ -191,7 +190,7 @@ void require_matter_inside(const Surface& surface, const std::vector<Component>&
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         volumes.push_back(enclosed_volume(surface, pieces[i]));
         if (std::abs(volumes[i]) <= 1e-12 * size * size * size) {
-            throw Error(fmt::format("the faces around {} enclose no volume; give the sheet its thickness",
+            throw Error(fmt::format("the faces around {} enclose no volume; give the sheet a thickness",
                                     place_of(surface, pieces[i])));
         }
         if (depths[i] > 0) continue;
@@ -200,26 +199,26 @@ void require_matter_inside(const Surface& surface, const std::vector<Component>&
     }
     if (inside_out == outer) {
         throw Error(
-            fmt::format("the surface is inside out: its faces look inwards (volume {:.4g}); turn them "
-                        "round where it was modelled, or a body's with 'samara mesh --flip'",
+            fmt::format("the surface is inside out: its faces point inwards (volume {:.4g}); flip the "
+                        "normals in the modelling program, or of a body with 'samara mesh --flip'",
                         *std::min_element(volumes.begin(), volumes.end())));
     }
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const std::string faces = count_of(pieces[i].triangles.size(), "face", "faces");
         const std::string where = place_of(surface, pieces[i]);
         if (depths[i] > 0 && volumes[i] < 0.0) {
-            throw Error(fmt::format(
-                "the {} around {} enclose a cavity, which no outer fluid reaches; delete them, and give "
-                "the body's mass, center_of_mass and inertia in the scene",
-                faces, where));
+            throw Error(
+                fmt::format("the {} around {} enclose a cavity, which the fluid does not reach; delete them, "
+                            "and give the body's mass, center_of_mass and inertia in the scene",
+                            faces, where));
         }
         if (depths[i] > 0) {
-            throw Error(fmt::format("the {} around {} are a body within a body; delete them", faces, where));
+            throw Error(fmt::format("the {} around {} lie inside another part; delete them", faces, where));
         }
         if (volumes[i] < 0.0) {
-            throw Error(fmt::format(
-                "the piece of {} around {} is inside out, the others are not; turn its normals round", faces,
-                where));
+            throw Error(
+                fmt::format("the part of {} around {} is inside out, the others are not; flip its normals",
+                            faces, where));
         }
     }
 }

@@ -77,8 +77,8 @@ void require_numbers_that_tell_it_apart(const Surface& surface, const Eigen::Ali
         farthest * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon());
     if (apart <= coarsest * extent) return;
     throw Error(
-        fmt::format("lies {:.3g} from the origin, where its numbers{} are {:.2g} apart, {:.2g} of its size; "
-                    "move it to the origin before it is exported",
+        fmt::format("lies {:.3g} from the origin, where coordinates{} have a resolution of {:.2g}, {:.2g} of "
+                    "its size; move it to the origin before you export it",
                     farthest, single ? " of 32 bits" : "", apart, apart / extent));
 }
 
@@ -90,7 +90,7 @@ void require_usable_numbers(const Surface& surface) {
     }
     const auto require = [&](std::size_t t, std::int32_t index) {
         if (index < 0 || as_index(index) >= surface.vertices.size()) {
-            throw Error(fmt::format("face {} names vertex {} of {}; export the file again", t + 1,
+            throw Error(fmt::format("face {} refers to vertex {} of {}; export the file again", t + 1,
                                     static_cast<std::int64_t>(index) + 1, surface.vertices.size()));
         }
         if (!vertex(surface, index).allFinite()) {
@@ -98,9 +98,9 @@ void require_usable_numbers(const Surface& surface) {
                                     t + 1, place(vertex(surface, index))));
         }
         if (vertex(surface, index).lpNorm<Eigen::Infinity>() > largest_coordinate) {
-            throw Error(
-                fmt::format("face {} has a corner at {}, farther off than {:g}; export the file again", t + 1,
-                            place(vertex(surface, index)), largest_coordinate));
+            throw Error(fmt::format(
+                "face {} has a corner at {}, farther than {:g} from the origin; export the file again", t + 1,
+                place(vertex(surface, index)), largest_coordinate));
         }
     };
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {

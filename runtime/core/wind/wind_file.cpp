@@ -32,13 +32,13 @@ Vector3d vector_in(const Hdf5Reader& file, const std::string& name) {
 WindGrid read_wind_file(const std::filesystem::path& path) {
     const Hdf5Reader file(path);
     if (!file.has(dataset))
-        throw Error(fmt::format("{}: is no wind file: it has no {}", path.string(), dataset));
+        throw Error(fmt::format("{}: is not a wind file: it has no {}", path.string(), dataset));
     if (file.integer_attribute("/", "format_version") > format_version) {
         throw error(path, "was written by a newer version of samara");
     }
     const std::vector<hsize_t> shape = file.shape(dataset);
     if (shape.size() != 5 || shape[4] != 3 || std::find(shape.begin(), shape.end(), 0U) != shape.end()) {
-        throw error(path, fmt::format("{} has not the shape (times, z, y, x, 3)", dataset));
+        throw error(path, fmt::format("{} does not have the shape (times, z, y, x, 3)", dataset));
     }
     WindGrid grid;
     grid.frames = shape[0];
@@ -47,7 +47,8 @@ WindGrid read_wind_file(const std::filesystem::path& path) {
     grid.spacing = vector_in(file, "/wind/spacing");
     grid.interval = file.number_attribute("/wind", "interval");
     grid.source = file.text_attribute("/wind", "source");
-    if (!(grid.spacing.minCoeff() > 0.0)) throw error(path, "/wind/spacing holds what is not above zero");
+    if (!(grid.spacing.minCoeff() > 0.0))
+        throw error(path, "/wind/spacing has a value that is not above zero");
     if (!(grid.interval > 0.0 && grid.interval < largest))
         throw error(path, "/wind has an interval that is not above zero");
     grid.velocities.reserve(grid.size());
@@ -66,7 +67,7 @@ WindGrid read_wind_file(const std::filesystem::path& path) {
 
 void write_wind_file(const std::filesystem::path& path, const WindGrid& grid) {
     if (grid.size() * sizeof(double) > most_bytes) {
-        throw Error(fmt::format("{}: would take {} GB; give the wind on fewer nodes or at fewer times",
+        throw Error(fmt::format("{}: would have {} GB; give the wind at fewer nodes or fewer times",
                                 path.string(), (grid.size() * sizeof(double)) >> 30U));
     }
     write_hdf5(path, [&](Hdf5Writer& file) {

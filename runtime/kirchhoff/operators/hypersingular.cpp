@@ -58,9 +58,8 @@ SixColumns hypersingular_times(const LinearElements& elements, const CompressedM
 constexpr std::size_t leaf_size = 64;         // triangles
 constexpr std::size_t schwarz_cluster = 512;  // triangles
 constexpr const char* unsolvable =
-    "the boundary elements' equations have no solution: the surface crosses itself or is not closed; mesh "
-    "the "
-    "shape again with 'samara mesh'";
+    "the boundary-element equations have no solution: the surface intersects itself or is not closed; mesh "
+    "the shape again with 'samara mesh'";
 
 /// Returns the normals, a row each triangle.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const LinearElements& elements) {

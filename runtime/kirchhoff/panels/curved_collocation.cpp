@@ -335,8 +335,8 @@ BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations
     // The equations of an open surface need not have a solution; its closure error says so.
     if (!solution.converged && equations.closure_error < open_surface) {
         throw Error(
-            fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the "
-                        "shape again with 'samara mesh', with more or more even triangles",
+            fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the shape "
+                        "again with 'samara mesh', with more or more regular triangles",
                         panels.panels.size(), most_iterations));
     }
     return solution;

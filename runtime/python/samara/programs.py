@@ -21,7 +21,7 @@ _Progress = Optional[Callable[[float, float], object]]
 def _run(command: str, arguments: Iterable[_Path], progress: _Progress) -> dict[str, Any]:
     program = shutil.which("samara")
     if program is None:
-        raise Error("samara: the program is not found; install the package samara-baking, or put its folder into PATH")
+        raise Error("samara: the program is not found; install the package samara-baking, or add its folder to PATH")
     words = [program, command, *(os.fspath(argument) for argument in arguments), "--json"]
     with tempfile.TemporaryFile("w+") as told, subprocess.Popen(
         words, stdout=told, stderr=subprocess.PIPE, text=True

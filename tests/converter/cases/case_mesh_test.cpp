@@ -71,11 +71,12 @@ TEST_F(TwoBlocks, WhereTheLayerIsResolvedItIsByTheVelocityAlongTheWall) {
 TEST_F(TwoBlocks, FieldsOfAnotherMeshAreRejected) {
     write("100/k", "volScalarField", "internalField nonuniform List<scalar> 1(0.04);");
     EXPECT_THAT(test::error_of([&] { static_cast<void>(spacing()); }),
-                HasSubstr("fields and mesh do not belong together"));
+                HasSubstr("fields and mesh do not match; solve the case again"));
     write("polyMesh/boundary", "polyBoundaryMesh", "1(far { type patch; nFaces 10; startFace 1; })");
-    EXPECT_THAT(test::error_of([&] { static_cast<void>(spacing()); }), HasSubstr("has no patch of the body"));
+    EXPECT_THAT(test::error_of([&] { static_cast<void>(spacing()); }),
+                HasSubstr("has no patch for the body"));
     write("polyMesh/boundary", "polyBoundaryMesh", "1(far { type patch; nFaces 99; startFace 1; })");
-    EXPECT_THAT(test::error_of([&] { static_cast<void>(mesh()); }), HasSubstr("are of different meshes"));
+    EXPECT_THAT(test::error_of([&] { static_cast<void>(mesh()); }), HasSubstr("belong to different meshes"));
     write("polyMesh/boundary", "polyBoundaryMesh", "3(far { type patch; nFaces 9; startFace 1; })");
     EXPECT_THAT(test::error_of([&] { static_cast<void>(mesh()); }), HasSubstr("holds 1 patches, but says 3"));
 }

@@ -81,14 +81,13 @@ TEST_F(DamagedHistory, OneAbsurdValueIsNamedByFileAndTime) {
     const std::string file = in_second_run(history_names[2]);
     const std::string whole = text_of(file);
     set_row(file, 17, "0.014 1e20");
-    EXPECT_EQ(error(),
-              (folder_.path() / file).string() +
-                  ": the epsilon is 1e+20 at the time 17, beyond any flow's (1000): diverged or damaged; "
-                  "remove the folder case_01 and run 'samara bake' again");
+    EXPECT_EQ(error(), (folder_.path() / file).string() +
+                           ": the epsilon is 1e+20 at the time 17, above the largest plausible value (1000): "
+                           "diverged or damaged; remove the folder case_01 and run 'samara bake' again");
     folder_.write(file, whole);
     set_row(file, 17, "-0.014 0.02");
     EXPECT_THAT(error(),
-                HasSubstr("14/volFieldValue.dat: the k is -0.014 at the time 17, which is never negative"));
+                HasSubstr("14/volFieldValue.dat: the k is -0.014 at the time 17, but cannot be negative"));
     folder_.write(file, whole);
     set_row(file, 17, "14 0.02");
     EXPECT_THAT(error(), HasSubstr("the k is 14 at the time 17, far from the others (about 0.012"));
@@ -120,7 +119,7 @@ TEST_F(DamagedHistory, AFileOfTheLastRunThatIsEmptiedOrMissingIsNamed) {
             EXPECT_THAT(error(), HasSubstr((folder_.path() / name).parent_path().parent_path().string()));
         }
         std::filesystem::remove(folder_.path() / file);
-        EXPECT_THAT(error(), HasSubstr("it was emptied, cut short, or its run's file is missing; remove"));
+        EXPECT_THAT(error(), HasSubstr("it was emptied or truncated, or its run's file is missing; remove"));
         folder_.write(file, whole);
     }
     EXPECT_EQ(reduced().size(), 6U);
@@ -145,9 +144,8 @@ TEST_F(DamagedHistory, TimesThatAreMissingFromAllAreAGap) {
 
 TEST_F(DamagedHistory, ACopyOfAnotherRunIsRejected) {
     folder_.write(forces + "16/force.dat", text_of(in_second_run(history_names[0])));
-    EXPECT_THAT(error(),
-                EndsWith("forces/16/force.dat: begins at the time 15, before the run of its folder; it is of "
-                         "another run: remove it"));
+    EXPECT_THAT(error(), EndsWith("forces/16/force.dat: begins at the time 15, before its folder's start "
+                                  "time, so it belongs to another run; remove it"));
 }
 
 TEST_F(DamagedHistory, AnyChangeSinceTheCaseWasSolvedIsFoundByTheMeansThatWereNoted) {

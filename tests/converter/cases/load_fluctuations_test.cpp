@@ -117,7 +117,7 @@ TEST_F(LoadFluctuationsOfACase, AreNotOfASteadyOneNorOfAFewSteps) {
     const auto error = [&](const std::optional<double>& begin) {
         return test::error_of([&] { (void)reduce_fluctuations(folder_ / "case", begin); });
     };
-    EXPECT_THAT(error(59.5), HasSubstr("of 60 that its fluctuations need"));
+    EXPECT_THAT(error(59.5), HasSubstr("but fluctuations need 60"));
     write_parameters("steadyState");
     EXPECT_THAT(error({}), HasSubstr("the case is steady"));
 }

@@ -265,7 +265,7 @@ TEST_F(FallIdentification, KeepsTheMetricsOfTheWholeFallWhereTheModelCannotFollo
 
 TEST_F(FallIdentification, RejectsToIdentifyFromNothing) {
     EXPECT_EQ(test::error_of([&] { static_cast<void>(identify_motion(body_, {})); }),
-              "exact: there is no fall to identify coefficients from");
+              "exact: has no falls to identify coefficients from");
 }
 
 TEST_F(FallIdentification, RejectsAFallThatIsTooShort) {
@@ -273,10 +273,10 @@ TEST_F(FallIdentification, RejectsAFallThatIsTooShort) {
     record.fall.name = "fall_07";
     record.samples.resize(899);
     EXPECT_EQ(error_with(body_, record),
-              "fall_07: the fall is too short to identify coefficients from: 8.99 L/U, needs 9");
+              "fall_07: the fall is too short to identify coefficients: it lasts 8.99 L/U and must last 9");
     record.samples.clear();
     EXPECT_EQ(error_with(body_, record),
-              "fall_07: the fall is too short to identify coefficients from: 0 L/U, needs 9");
+              "fall_07: the fall is too short to identify coefficients: it lasts 0 L/U and must last 9");
     record.samples.assign(record_.samples.begin(), record_.samples.begin() + 900);
     EXPECT_EQ(identify_motion(body_, {record}).segments, 12);
 }
@@ -286,7 +286,7 @@ TEST_F(FallIdentification, RejectsAFallOfAnotherBody) {
     record.fall.name = "fall_07";
     record.fall.length *= 1.01;
     const std::string error = error_with(body_, record);
-    EXPECT_THAT(error, HasSubstr("fall_07: the fall is of another body"));
+    EXPECT_THAT(error, HasSubstr("fall_07: the fall belongs to another body"));
     EXPECT_THAT(error, Not(HasSubstr("\n")));
 }
 
@@ -295,7 +295,7 @@ TEST_F(FallIdentification, RejectsAFallWhoseStepsAreUneven) {
     record.fall.name = "fall_07";
     record.samples.erase(record.samples.begin() + 500);
     EXPECT_EQ(error_with(body_, record),
-              "fall_07: the fall's steps are not of one length: 0.01 L/U at first, but not at 5.02");
+              "fall_07: the fall's steps are not equal: 0.01 L/U at first, but different at 5.02");
 }
 
 }  // namespace

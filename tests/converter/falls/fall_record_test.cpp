@@ -100,7 +100,7 @@ TEST_F(FallRecordFiles, TakeTheSolversAnglesForRotationsOfThePrincipalAxes) {
 
 TEST_F(FallRecordFiles, AreRejectedWhereOneIsMissingOrOfOtherTimes) {
     const auto error = [&] { return test::error_of([&] { static_cast<void>(record()); }); };
-    EXPECT_THAT(error(), HasSubstr("fall.json: is not there"));
+    EXPECT_THAT(error(), HasSubstr("fall.json: is missing"));
     write_fall(fall());
     EXPECT_THAT(error(), HasSubstr("postProcessing/state"));
     write("state", "sixDoFRigidBodyState.dat",
@@ -109,7 +109,7 @@ TEST_F(FallRecordFiles, AreRejectedWhereOneIsMissingOrOfOtherTimes) {
     for (const char* file : {"force.dat", "moment.dat"}) {
         write("forces", file, force_heading + std::string("0.5\t(0 0 0)\t(0 0 0)\t(0 0 0)\n"));
     }
-    EXPECT_THAT(error(), HasSubstr("are not of the same times"));
+    EXPECT_THAT(error(), HasSubstr("have different times"));
 }
 
 TEST_F(FallRecordFiles, AreRejectedWhereAnyIsCutShortEmptiedOrBeyondReason) {
@@ -134,22 +134,27 @@ TEST_F(FallRecordFiles, AreRejectedWhereAnyIsCutShortEmptiedOrBeyondReason) {
     const auto second_row = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
     write_all(state, loads, loads);
     EXPECT_EQ(record().samples.size(), 2u);
-    EXPECT_THAT(error_with(first_row(state), loads, loads), HasSubstr("end at the time 0.5 of 1"));
-    EXPECT_THAT(error_with(state, first_row(loads), loads), HasSubstr("end at the time 0.5 of 1"));
-    EXPECT_THAT(error_with(state, loads, first_row(loads)), HasSubstr("end at the time 0.5 of 1"));
-    EXPECT_THAT(error_with(state, loads, second_row(loads)), HasSubstr("not of the same times"));
+    EXPECT_THAT(error_with(first_row(state), loads, loads), HasSubstr("end at the time 0.5, not at 1"));
+    EXPECT_THAT(error_with(state, first_row(loads), loads), HasSubstr("end at the time 0.5, not at 1"));
+    EXPECT_THAT(error_with(state, loads, first_row(loads)), HasSubstr("end at the time 0.5, not at 1"));
+    EXPECT_THAT(error_with(state, loads, second_row(loads)), HasSubstr("have different times"));
     EXPECT_THAT(error_with(second_row(state), second_row(loads), second_row(loads)),
-                HasSubstr("it has nothing between the times 0 and 1"));
+                HasSubstr("it has no values between the times 0 and 1"));
     EXPECT_THAT(error_with(state, loads, ""), HasSubstr("moment.dat: holds no values"));
     for (const char* value : {"1e20", "nan", "1e400", "-inf"}) {
         // The first vector of a state, the centre of rotation, does not count.
         const auto damaged = [&](std::string text, const char* before) {
             return text.replace(text.find(before) + std::strlen(before), 1, value);
         };
-        EXPECT_THAT(error_with(damaged(state, ") ("), loads, loads), HasSubstr("at the time 0.5 is"))
+        EXPECT_THAT(error_with(damaged(state, ") ("), loads, loads),
+                    HasSubstr("at the time 0.5 has the magnitude"))
             << value;
-        EXPECT_THAT(error_with(state, damaged(loads, "("), loads), HasSubstr("at the time 0.5 is")) << value;
-        EXPECT_THAT(error_with(state, loads, damaged(loads, "(")), HasSubstr("at the time 0.5 is")) << value;
+        EXPECT_THAT(error_with(state, damaged(loads, "("), loads),
+                    HasSubstr("at the time 0.5 has the magnitude"))
+            << value;
+        EXPECT_THAT(error_with(state, loads, damaged(loads, "(")),
+                    HasSubstr("at the time 0.5 has the magnitude"))
+            << value;
     }
 }
 
@@ -299,8 +304,9 @@ TEST(FallingBody, HasTheMassTheInertiaAndTheFluidOfTheFall) {
 TEST(FallingBody, RejectsAFallOfABodyOfAnotherSize) {
     FreeFall fall = test::oblique_fall(test::ellipsoid_with_tables(), 1.0);
     fall.length *= 1.0 + 1e-5;
-    EXPECT_THAT(test::error_of([&] { static_cast<void>(falling_body(test::ellipsoid_with_tables(), fall)); }),
-                testing::StartsWith("fall_00: the fall is of another body than exact: its length L is "));
+    EXPECT_THAT(
+        test::error_of([&] { static_cast<void>(falling_body(test::ellipsoid_with_tables(), fall)); }),
+        testing::StartsWith("fall_00: the fall belongs to another body than exact: its length L is "));
 }
 
 TEST(FallingBody, FallsInSIUnitsAndTheBodysAxesAtTheStart) {

@@ -73,7 +73,7 @@ TEST(FreeFall, ErrorsNameTheFileAndTheEntry) {
         static_cast<void>(folder.file("fall.json", text));
         return error();
     };
-    EXPECT_THAT(error(), HasSubstr("fall.json: is not there"));
+    EXPECT_THAT(error(), HasSubstr("fall.json: is missing"));
     EXPECT_THAT(error_of("{"), HasSubstr("fall.json: "));
     const nlohmann::json whole = nlohmann::json::parse(free_fall_json(some_fall()));
     for (const auto& [name, value] : whole.items()) {

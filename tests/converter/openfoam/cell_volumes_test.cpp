@@ -62,10 +62,10 @@ TEST_F(TwoCells, AWarpedFaceGivesOneCellWhatItTakesFromTheOther) {
 
 TEST_F(TwoCells, MeshesThatDoNotFitAreRejected) {
     EXPECT_THAT(test::error_of([&] { cell_volumes(folder_.path(), {2}); }),
-                HasSubstr("the mesh has no cell 2, which its zone names"));
+                HasSubstr("the mesh has no cell 2, which its zone contains"));
     write("owner", "labelList", "9(0 0 0 0 0 0 1 1 1)");
     EXPECT_THAT(test::error_of([&] { cell_volumes(folder_.path(), {0}); }),
-                HasSubstr("owner, neighbour and faces are of different meshes"));
+                HasSubstr("owner, neighbour and faces belong to different meshes"));
     write("owner", "labelList", "10(0 0 0 0 0 0 1 1 1 1)");
     write("points", "vectorField", "1((0 0 0))");
     EXPECT_THAT(test::error_of([&] { cell_volumes(folder_.path(), {0}); }),

@@ -29,7 +29,7 @@ class FoamBytesOfAFile : public testing::Test {
         const std::filesystem::path file = folder_.file("k.gz", packed);
         std::string message = test::error_of([&] { read_foam_bytes(folder_.path() / "k"); });
         EXPECT_EQ(message.find(file.string() + ": "), 0U);
-        EXPECT_THAT(message, EndsWith("; copy the file again, or let OpenFOAM write it again"));
+        EXPECT_THAT(message, EndsWith("; copy the file again, or write it again with OpenFOAM"));
         return message.substr(file.string().size() + 2, message.find(';') - file.string().size() - 2);
     }
 
@@ -62,9 +62,9 @@ TEST_F(FoamBytesOfAFile, OfJoinedGzipFilesFollowOneAnother) {
 TEST_F(FoamBytesOfAFile, AreRejectedWhereverAPackedFileIsCutShort) {
     const std::string packed = test::gzipped("internalField uniform 1;");
     for (std::size_t length = 2; length < packed.size(); ++length) {
-        EXPECT_EQ(error_of(packed.substr(0, length)), "the compressed file is cut short") << length;
+        EXPECT_EQ(error_of(packed.substr(0, length)), "the compressed file is truncated") << length;
     }
-    EXPECT_EQ(error_of(test::gzipped(long_text()).substr(0, 200000)), "the compressed file is cut short");
+    EXPECT_EQ(error_of(test::gzipped(long_text()).substr(0, 200000)), "the compressed file is truncated");
 }
 
 TEST_F(FoamBytesOfAFile, AreRejectedWhereAPackedFileIsDamagedOrForeign) {
@@ -72,8 +72,8 @@ TEST_F(FoamBytesOfAFile, AreRejectedWhereAPackedFileIsDamagedOrForeign) {
     packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
     EXPECT_EQ(error_of(packed), "the compressed file is damaged");
     EXPECT_EQ(error_of(test::gzipped("k") + "garbage after it"), "the compressed file is damaged");
-    EXPECT_EQ(error_of("internalField uniform 1;"), "is not compressed by gzip");
-    EXPECT_EQ(error_of(""), "is not compressed by gzip");
+    EXPECT_EQ(error_of("internalField uniform 1;"), "is not compressed with gzip");
+    EXPECT_EQ(error_of(""), "is not compressed with gzip");
 }
 
 }  // namespace

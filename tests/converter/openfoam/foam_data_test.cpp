@@ -66,7 +66,7 @@ TEST_F(FoamData, LetsAFileBeThatEndsEarly) {
 
 TEST_F(FoamData, RejectsWhatOpenFoamWouldRunOrRead) {
     EXPECT_THAT(error_of_patch("value #calc \"1\";"),
-                EndsWith("U:18: holds '#calc', which no solver writes there"));
+                EndsWith("U:18: holds '#calc', which is not allowed there"));
     EXPECT_THAT(error_of_patch("#include \"/etc/passwd\""), HasSubstr("holds '#include'"));
     EXPECT_THAT(error_of_patch("value $other;"), HasSubstr("holds '$other'"));
     EXPECT_THAT(error_of_patch("type codedFixedValue;"), HasSubstr("holds 'codedFixedValue'"));

@@ -44,8 +44,8 @@ TEST_F(FoamDictionaryTest, ErrorsNameFileAndEntry) {
     EXPECT_THAT(vector_error("a (1 2 3 4);"),
                 EndsWith("should be three numbers in brackets, is '(1 2 3 4)'"));
     EXPECT_THAT(vector_error("a 1;"), EndsWith("should be three numbers in brackets, is '1'"));
-    EXPECT_THAT(number_error("b 1;\na 2"), EndsWith("parameters:2: this entry is not ended by ';'"));
-    EXPECT_THAT(number_error("b (1;\n"), EndsWith("parameters:1: this entry is not ended by ';'"));
+    EXPECT_THAT(number_error("b 1;\na 2"), EndsWith("parameters:2: this entry does not end with ';'"));
+    EXPECT_THAT(number_error("b (1;\n"), EndsWith("parameters:1: this entry does not end with ';'"));
 }
 
 }  // namespace

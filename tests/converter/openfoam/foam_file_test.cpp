@@ -141,7 +141,7 @@ TEST_F(FoamFile, OtherMachinesBinaryIsRejected) {
     const std::string arch = "    arch \"MSB;label=32;scalar=64\";\n";
     const auto k = folder_.file("k", header("volScalarField", "binary", arch));
     EXPECT_THAT(test::error_of([&] { read_scalar_field(k); }),
-                HasSubstr("k:12: is binary in another machine's byte order; set 'writeFormat ascii' in "
+                HasSubstr("k:12: is binary with another byte order; set 'writeFormat ascii' in "
                           "system/controlDict there and run foamFormatConvert"));
     const auto text =
         folder_.file("k", header("volScalarField", "ascii", arch) + "internalField uniform 3;\n");
@@ -236,7 +236,7 @@ TEST_F(FoamFile, ErrorsNameFileAndLine) {
     EXPECT_THAT(error_in("internalField sometimes 3;"), HasSubstr("found 'sometimes'"));
     EXPECT_THAT(error_in("internalField uniform 3"), HasSubstr("expected ';', found the end of the file"));
     EXPECT_THAT(error_in("boundaryField { far { type patch; } }"), HasSubstr("has no internalField"));
-    EXPECT_THAT(error_in("boundaryField { far { type patch; }"), HasSubstr("is not ended by '}'"));
+    EXPECT_THAT(error_in("boundaryField { far { type patch; }"), HasSubstr("does not end with '}'"));
     EXPECT_THAT(error_in("/* endless"), HasSubstr(":16: this comment has no end"));
 }
 
@@ -248,7 +248,7 @@ TEST_F(FoamFile, FilesOfAnotherTypeAreRejected) {
         EXPECT_THAT(test::error_of([&] { read_scalar_field(file); }), HasSubstr("not an OpenFOAM file"));
     }
     EXPECT_THAT(test::error_of([&] { read_scalar_field(folder_.path() / "none"); }),
-                HasSubstr("there is no such file"));
+                HasSubstr("does not exist"));
 }
 
 TEST_F(FoamFile, BinaryThatIsCutShortIsRejected) {

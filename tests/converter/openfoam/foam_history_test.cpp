@@ -145,20 +145,19 @@ TEST_F(JoinedHistory, IsRejectedWhereItsEndIsCutInALine) {
     write("2/f.dat", "3 31\n4 4");
     EXPECT_THAT(
         error(),
-        EndsWith(
-            "shell/2/f.dat:3: ends within this line, as where the solver was stopped while it wrote; let "
-            "it go on, or remove the line"));
+        EndsWith("shell/2/f.dat:3: ends within this line; let the solver continue, or remove the line"));
 }
 
 TEST_F(JoinedHistory, SaysWhatIsMissing) {
-    EXPECT_THAT(error(),
-                EndsWith("shell: has no f.dat in any folder of a start time; the case was solved without "
-                         "the function object 'shell', or not at all"));
+    EXPECT_THAT(error(), EndsWith("shell: has no f.dat in any folder of a start time; solve the case with "
+                                  "the function object 'shell'"));
     write("0/f.dat", "");
     EXPECT_THAT(error(), EndsWith("shell/0/f.dat: holds no values; the case was not solved"));
     write("0/f.dat", "1 2\n");
     static_cast<void>(folder_.file("shell/1/f.dat", "# Time b a\n2 1 2\n"));
-    EXPECT_THAT(error(), EndsWith("shell/1/f.dat: its columns are not those of the runs before it"));
+    EXPECT_THAT(
+        error(),
+        EndsWith("shell/1/f.dat: its columns differ from those of earlier runs; solve the case again"));
 }
 
 }  // namespace

@@ -164,8 +164,9 @@ TEST_F(SolvedFlow, DecomposedFieldsAreSummedOverTheProcessors) {
         fs::remove(folder / "processor0" / "40" / (std::string(format) == "ascii" ? "V" : "V.gz"));
         expect_equal(reduced(name), reduced(format), 1e-9);
         fs::remove_all(folder / "processor1");
-        EXPECT_THAT(test::error_of([&] { reduced(name); }),
-                    HasSubstr("processor1: is missing, but the case is cut into 2 parts; copy all of them"));
+        EXPECT_THAT(
+            test::error_of([&] { reduced(name); }),
+            HasSubstr("processor1: is missing, but the case is decomposed into 2 parts; copy all of them"));
     }
 }
 

@@ -59,7 +59,7 @@ TEST_F(CaseParts, TakeResidualsOfThePressureFromTheSolversLog) {
 TEST_F(CaseParts, ShowWhatIsThereAndSayWhatIsNot) {
     const CasesReport report = read();
     ASSERT_EQ(report.parts.size(), 1U);
-    EXPECT_EQ(report.parts[0].title, "How the cases settled");
+    EXPECT_EQ(report.parts[0].title, "Convergence of the cases");
     const nlohmann::json& picture = report.parts[0].blocks.at(0)["picture"];
     EXPECT_EQ(picture["picture"], "histories");
     EXPECT_EQ(picture["cases"].size(), folder_.names().size());

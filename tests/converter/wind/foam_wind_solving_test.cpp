@@ -121,7 +121,7 @@ TEST_F(FoamWind, WhatIsNoSolvedCaseIsRejected) {
     fs::copy(places() / "30", unsolved / "1", fs::copy_options::recursive);
     fs::copy(places() / "30", unsolved / "2", fs::copy_options::recursive);
     fs::copy(places() / "30", unsolved / "5", fs::copy_options::recursive);
-    EXPECT_THAT(error(unsolved), HasSubstr("are not evenly apart"));
+    EXPECT_THAT(error(unsolved), HasSubstr("are not equally spaced"));
     const Vector3d far(1e3, 1e3, 1e3);
     EXPECT_THAT(error(places(), {.spacing = 1.0, .box = Eigen::AlignedBox3d(far, far + Vector3d::Ones())}),
                 HasSubstr("no node lies in the mesh"));

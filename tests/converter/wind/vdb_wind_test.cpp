@@ -139,21 +139,22 @@ TEST_F(VdbWind, WhatIsNoVelocityIsNamed) {
     density->setName("density");
     density->getAccessor().setValue(openvdb::Coord(0), 1.0F);
     EXPECT_THAT(error(file("smoke.vdb", {density})),
-                HasSubstr("smoke.vdb: holds the grids density, of which none is known"));
+                HasSubstr("smoke.vdb: holds the grids density, none of which is recognised"));
     EXPECT_THAT(error(file("two.vdb", {vectors("a"), vectors("b")})), HasSubstr("--grid"));
     EXPECT_THAT(error(file("two.vdb", {vectors("a"), vectors("b")}), {.grid = "c"}),
-                HasSubstr("no velocity 'c'"));
+                HasSubstr("no single-precision velocity 'c'"));
     EXPECT_EQ(read_vdb_wind({file("two.vdb", {vectors("a"), vectors("b")})}, {.grid = "b"}).frames, 1U);
     auto empty = openvdb::Vec3SGrid::create();
     empty->setName("velocity");
     empty->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
-    EXPECT_THAT(error(file("empty.vdb", {empty})), HasSubstr("empty.vdb: has no active voxel"));
+    EXPECT_THAT(error(file("empty.vdb", {empty})),
+                HasSubstr("empty.vdb: none of the files has an active voxel"));
 }
 
 TEST_F(VdbWind, IndexSpaceWantsTheSizeOfAVoxel) {
     const auto path = file("a.vdb", {vectors("velocity", 1.0, 1.0)});
     EXPECT_THAT(error(path),
-                HasSubstr("is in index space: it does not say how large its voxels are; give --voxel-size"));
+                HasSubstr("is in index space and does not define its voxel size; give --voxel-size"));
     const WindGrid grid = read_vdb_wind({path}, {.voxel_size = 0.1});
     EXPECT_NEAR(grid.spacing.x(), 0.1, 1e-12);
     // A place 10 voxels away is 1 m away now, with the same velocity.

@@ -154,7 +154,7 @@ def by_python():
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--record", action="store_true", help="write the digests anew")
+    parser.add_argument("--record", action="store_true", help="write the digests again")
     chosen = parser.parse_args()
     build = chosen.build.resolve()
     sys.path.insert(0, str(build / "python"))

@@ -288,9 +288,9 @@ TEST(BakeSpeed, IsTheTerminalSpeed) {
 
 TEST(BakeSpeed, OfABodyThatFloatsInTheFluidOrWithoutGravityIsRejectedWithItsName) {
     const std::string neutral = test::error_of([] { (void)speed_of(fluid_preset("water")->density); });
-    EXPECT_THAT(neutral, AllOf(HasSubstr("sphere"), HasSubstr("choose another density")));
+    EXPECT_THAT(neutral, AllOf(HasSubstr("sphere"), HasSubstr("give another density")));
     const std::string weightless = test::error_of([] { (void)speed_of(2000.0, 0.0); });
-    EXPECT_THAT(weightless, AllOf(HasSubstr("sphere"), HasSubstr("choose another gravity")));
+    EXPECT_THAT(weightless, AllOf(HasSubstr("sphere"), HasSubstr("give another gravity")));
 }
 
 TEST(BakeReynoldsNumber, HasThreeDigits) {

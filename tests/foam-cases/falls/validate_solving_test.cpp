@@ -288,7 +288,7 @@ TEST_F(Falls, ASolvedFallSaysWhatItDiffersFromAnotherSolutionBy) {
     const test::ProgramRun run = judge({"--other-mesh", "other.h5", "--other-closure", "other.h5,out.h5"});
     EXPECT_EQ(run.status, 0) << run.error;
     EXPECT_EQ(read_bytes(folder_ / "again.h5"), read_bytes(folder_ / "out.h5"));
-    EXPECT_THAT(judge({}).error, HasSubstr("out.h5: is a motion, solved already; give"));
+    EXPECT_THAT(judge({}).error, HasSubstr("out.h5: is a solved motion; give"));
     fs::remove(folder_ / "again.h5");
     EXPECT_EQ(judge({"--other-mesh", "other.h5", "--dry-run"}).status, 1);
     EXPECT_FALSE(fs::exists(folder_ / "again.h5"));
@@ -330,7 +330,8 @@ TEST_F(Falls, AnInterruptedOneLeavesNoSolverRunning) {
         EXPECT_TRUE(solvers().empty());
         if (signal == SIGKILL) continue;
         EXPECT_TRUE(WIFEXITED(status));
-        EXPECT_THAT(read_bytes(folder_.path() / "stderr"), HasSubstr("the same command goes on from there"));
+        EXPECT_THAT(read_bytes(folder_.path() / "stderr"),
+                    HasSubstr("run the same command again to continue"));
     }
     EXPECT_THAT(solved()["attempts"], ElementsAre("as planned"));
 }
@@ -341,7 +342,9 @@ TEST_F(Falls, OneThatBlowsUpIsSolvedWithHalfTheStep) {
     write_scene("duration = 0.01", "sphere", "density = 50");
     const test::ProgramRun run = validate(templates_with("accelerationRelaxation 1;", true));
     ASSERT_EQ(run.status, 0) << run.error;
-    EXPECT_THAT(run.error, HasSubstr("note: the fall diverged as planned and was solved with half the step"));
+    EXPECT_THAT(
+        run.error,
+        HasSubstr("warning: the fall diverged at the planned settings and was solved with half the step"));
     const nlohmann::json json = run.json();
     EXPECT_THAT(json["attempts"], ElementsAre("as planned", "half the step"));
     EXPECT_TRUE(attempts()[0].contains("end"));

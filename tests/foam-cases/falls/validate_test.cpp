@@ -65,7 +65,7 @@ TEST_F(Validate, RejectsScenesThatFullCfdDoesNotSolve) {
     write_scene("", "", body + "\n[[body]]\nname = \"other\"\nshape = \"ball.body.h5\"\ndensity = 1200");
     EXPECT_THAT(error(), HasSubstr("scene.toml: full CFD solves one body at a time"));
     write_scene("", "", body + "\ncount = 3\nspread = { size = [0.9, 1.1] }");
-    EXPECT_THAT(error(), HasSubstr("copies of the shape's own size; drop 'size' from 'spread'"));
+    EXPECT_THAT(error(), HasSubstr("copies; remove 'size' from 'spread'"));
     write_scene("ground = -2.0", "", body);
     EXPECT_THAT(error(), HasSubstr("'ground'"));
     std::ofstream(folder_ / "roof.stl") << "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
@@ -86,7 +86,7 @@ TEST_F(Validate, RejectsABodyThatNothingMoves) {
     write_scene("", "", "density = 998.2\nturbulence = \"none\"");
     EXPECT_THAT(error({"--dry-run"}), HasSubstr("'ball' is as dense as the fluid"));
     write_scene("gravity = [0, 0, 0]", "", "density = 1200\nturbulence = \"none\"");
-    EXPECT_THAT(error({"--dry-run"}), HasSubstr("there is nothing to solve"));
+    EXPECT_THAT(error({"--dry-run"}), HasSubstr("so it does not fall"));
 }
 
 TEST_F(Validate, NamesTheProgramsThatAreMissing) {
@@ -101,7 +101,7 @@ TEST_F(Validate, NamesTheContainerThatRunsNoOpenFoam) {
     write_scene("", "", "density = 1200\nturbulence = \"none\"");
     EXPECT_THAT(error({}, "SAMARA_OPENFOAM=false"),
                 HasSubstr("needs OpenFOAM, but 'false simpleFoam -help' fails with exit status 1; set "
-                          "SAMARA_OPENFOAM to the words that run a program in its container"));
+                          "SAMARA_OPENFOAM to the command that runs a program in its container"));
     EXPECT_THAT(error({}, "SAMARA_OPENFOAM=/nowhere/apptainer"),
                 HasSubstr("'/nowhere/apptainer simpleFoam -help' fails with exit status 127"));
 }

@@ -117,9 +117,8 @@ TEST(DiskNeed, BeyondTheDiskIsRejectedInOneLine) {
     const test::TemporaryFolder folder;
     require_room(folder.path(), 1e6);
     const std::string error = test::error_of([&] { require_room(folder.path(), 1e18); });
-    EXPECT_THAT(
-        error, HasSubstr(folder.path().string() + ": what is to be solved takes about 1e+12 MB there, and "));
-    EXPECT_THAT(error, HasSubstr("make room, or name an output elsewhere"));
+    EXPECT_THAT(error, HasSubstr(folder.path().string() + ": the cases need about 1e+12 MB, but "));
+    EXPECT_THAT(error, HasSubstr("free some space, or choose another output"));
     EXPECT_EQ(error.find('\n'), std::string::npos);
 }
 

@@ -101,7 +101,7 @@ TEST_F(Cluster, LosesItsJobsOnAnInterruption) {
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1);
-    EXPECT_THAT(read_bytes(folder_ / "stderr"), HasSubstr("the same command goes on from there"));
+    EXPECT_THAT(read_bytes(folder_ / "stderr"), HasSubstr("run the same command again to continue"));
     EXPECT_EQ(jobs(), "");
 }
 
@@ -125,7 +125,7 @@ TEST_F(Cluster, SaysThatNoSlurmAnswers) {
     ::setenv("SLURM_CONF", configuration.c_str(), 1);
     EXPECT_EQ(run.status, 1);
     EXPECT_TRUE(test::is_one_line(run.error)) << run.error;
-    EXPECT_THAT(run.error, HasSubstr("Slurm does not answer (squeue failed"));
+    EXPECT_THAT(run.error, HasSubstr("Slurm does not respond (squeue failed"));
 }
 
 TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
@@ -133,15 +133,14 @@ TEST_F(Cluster, SaysThatANodeCouldNotWriteIntoTheFolder) {
     const std::string submit = "sbatch --time=10 --output=" + (folder_ / "nowhere/log").string();
     const test::ProgramRun run = bake_there(write_body(test::sphere(0.01)), submit);
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.error,
-                HasSubstr("mesh_coarse: its cluster job left nothing there; is that a folder that"));
+    EXPECT_THAT(run.error, HasSubstr("mesh_coarse: its cluster job wrote nothing there; use a folder that"));
 }
 
 TEST_F(Cluster, TakesNoOtherSchedulerThanSlurm) {
     const test::ProgramRun run = bake("sphere.geo -o out.body.h5 --cluster qsub");
     EXPECT_EQ(run.status, 1);
     EXPECT_TRUE(test::is_one_line(run.error));
-    EXPECT_THAT(run.error, HasSubstr("only Slurm's sbatch is known"));
+    EXPECT_THAT(run.error, HasSubstr("only Slurm's sbatch is supported"));
     EXPECT_NO_THROW(require_sbatch("/opt/slurm/bin/sbatch --time=30"));
 }
 

@@ -85,7 +85,7 @@ TEST_F(MeshMaking, OfABodyThatNoRemedyFindsIsOneLineWithTheReasonAndWhatToDo) {
     EXPECT_TRUE(test::is_one_line(output)) << output;
     EXPECT_THAT(output, HasSubstr("the body cannot be meshed"));
     EXPECT_THAT(output, HasSubstr("3 remedies did not help"));
-    EXPECT_THAT(output, HasSubstr("take a finer --quality"));
+    EXPECT_THAT(output, HasSubstr("use a finer --quality"));
     EXPECT_FALSE(fs::exists(mesh_ / "mesh.json"));
     EXPECT_THAT(output, HasSubstr(record("failed.json")["reason"].get<std::string>()));
 }

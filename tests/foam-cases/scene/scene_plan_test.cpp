@@ -60,7 +60,7 @@ TEST(ScenePlan, OfASceneInWhichTheBodyDoesNotMoveIsRejected) {
     for (const auto& [duration, start, step] :
          {std::array{1e-4, 0.0, 1.0}, {1.0, 2.0, 2e-3}, {1.0, 1.0, 2e-3}}) {
         EXPECT_THAT(error_of(duration, start, step),
-                    testing::StartsWith("odd.toml: the body 'rubber' does not move within the scene"));
+                    testing::StartsWith("odd.toml: the body 'rubber' does not move in the scene"));
     }
 }
 

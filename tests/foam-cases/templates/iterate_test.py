@@ -129,7 +129,7 @@ class IterateTest(IteratedCase):
     def test_a_version_that_the_cases_are_not_tested_with_is_named_beside_its_fault(self):
         status, said = self.run_case("100 refuse")
         self.assertEqual(status, 1)
-        self.assertIn("simpleFoam failed: Unknown function type shell (this OpenFOAM says '1'; the cases are tested with v1912)",
+        self.assertIn("simpleFoam failed: Unknown function type shell (this OpenFOAM is '1'; the cases are tested with v1912)",
                       said)
 
     def test_a_history_that_ends_early_is_a_full_disk_and_not_the_cases_fault(self):

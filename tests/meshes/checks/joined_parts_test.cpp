@@ -116,7 +116,7 @@ TEST(JoinedParts, ThatTouchInAnEdgeOrAPointAloneAreRejectedByNumberAndPlace) {
         with_parts_joined(welded(test::together({plate, edge})));
     });
     EXPECT_THAT(error, AllOf(HasSubstr("part 1 (from (-2, -2, -1) to (2, 2, 0)) and part 2"),
-                             HasSubstr("cannot be joined"), HasSubstr("or move them apart by more than")));
+                             HasSubstr("cannot join"), HasSubstr("or move them apart by more than")));
     // As it says.
     const Surface apart = test::mapped(edge, Matrix3d::Identity(), Vector3d(0, 0, 1e-5));
     EXPECT_NO_THROW(require_sound_surface(with_parts_joined(welded(test::together({plate, apart})))));

@@ -85,14 +85,14 @@ TEST(SoundSurface, FlipReversesAnInsideOutSurface) {
 TEST(SoundSurface, FindsTheOneFaceThatIsReversed) {
     Surface box = test::box(Vector3d::Ones(), 2);
     std::swap(box.corners[16][0], box.corners[16][1]);
-    EXPECT_THAT(error_of(box), AllOf(HasSubstr("1 of 48 faces is turned against the others"),
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("1 of 48 faces is oriented against the others"),
                                      HasSubstr("face 17 at"), HasSubstr(place(triangle_centroid(box, 16)))));
 }
 
 TEST(SoundSurface, FindsTheFewFacesThatAreReversedEvenIfTheFirstIsAmongThem) {
     Surface box = test::box(Vector3d::Ones(), 2);
     for (const std::size_t t : {0U, 5U}) std::swap(box.corners[t][0], box.corners[t][1]);
-    EXPECT_THAT(error_of(box), AllOf(HasSubstr("2 of 48 faces are turned"), HasSubstr("face 1 at")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("2 of 48 faces are oriented"), HasSubstr("face 1 at")));
 }
 
 TEST(SoundSurface, FindsADuplicateFace) {
@@ -113,8 +113,8 @@ TEST(SoundSurface, FindsAFaceOnItsOwn) {
     stray.vertices = {Vector3d(5, 5, 5), Vector3d(6, 5, 5), Vector3d(5, 6, 5)};
     stray.corners = {{0, 1, 2}};
     append(box, stray);
-    EXPECT_THAT(error_of(box),
-                AllOf(HasSubstr("face 49 at (5.333, 5.333, 5) is stray"), HasSubstr("delete it")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("face 49 at (5.333, 5.333, 5) is not part of the surface"),
+                                     HasSubstr("delete it")));
 }
 
 TEST(SoundSurface, FindsAFaceThatHangsOnByAnEdge) {
@@ -122,7 +122,8 @@ TEST(SoundSurface, FindsAFaceThatHangsOnByAnEdge) {
     box.vertices.emplace_back(2.0, 2.0, 2.0);
     const auto tip = static_cast<std::int32_t>(box.vertices.size()) - 1;
     box.corners.push_back({box.corners[0][0], box.corners[0][1], tip});
-    EXPECT_THAT(error_of(box), AllOf(HasSubstr("face 49"), HasSubstr("is stray: it hangs on")));
+    EXPECT_THAT(error_of(box),
+                AllOf(HasSubstr("face 49"), HasSubstr("is not part of the surface: it shares an edge that")));
 }
 
 TEST(SoundSurface, FindsAnInnerWall) {
@@ -136,7 +137,7 @@ TEST(SoundSurface, FindsAnInnerWall) {
 TEST(SoundSurface, FindsACornerWhereSheetsTouch) {
     Surface boxes = test::box(Vector3d::Ones(), 1);
     append(boxes, test::mapped(test::box(Vector3d::Ones(), 1), Matrix3d::Identity(), Vector3d::Ones()));
-    EXPECT_THAT(error_of(boxes), HasSubstr("touch in the corner at (0.5, 0.5, 0.5)"));
+    EXPECT_THAT(error_of(boxes), HasSubstr("touch at the corner (0.5, 0.5, 0.5)"));
 }
 
 TEST(SoundSurface, FindsNumbersThatAreNotFinite) {
@@ -148,7 +149,7 @@ TEST(SoundSurface, FindsNumbersThatAreNotFinite) {
 TEST(SoundSurface, FindsSizesThatNoBodyHas) {
     Surface box = test::box(Vector3d::Ones(), 2);
     box.vertices[static_cast<std::size_t>(box.corners[3][0])].z() = 1e300;
-    EXPECT_THAT(error_of(box), AllOf(HasSubstr("1e+300"), HasSubstr("farther off than 1e+12")));
+    EXPECT_THAT(error_of(box), AllOf(HasSubstr("1e+300"), HasSubstr("farther than 1e+12")));
     EXPECT_THAT(error_of(test::box(Vector3d::Constant(1e-13), 1)), HasSubstr("within 1e-12 of each other"));
 }
 
@@ -175,7 +176,7 @@ TEST(SoundSurface, FindsASurfaceThatPassesThroughItself) {
     for (Vector3d& vertex : box.vertices) {
         if ((vertex - Vector3d(0.25, 0.0, 0.5)).norm() < 1e-9) vertex = Vector3d(0.2, 0.07, -0.7);
     }
-    EXPECT_THAT(error_of(box), HasSubstr("passes through itself"));
+    EXPECT_THAT(error_of(box), HasSubstr("intersects itself"));
 }
 
 TEST(SoundSurface, RejectsACavityAndSaysWhatToDo) {
@@ -204,7 +205,7 @@ TEST(SoundSurface, TakesABodyOfSeveralPieces) {
 TEST(SoundSurface, FindsABodyWithinABody) {
     Surface bodies = test::box(Vector3d::Ones(), 2);
     append(bodies, test::box(Vector3d::Constant(0.5), 2));
-    EXPECT_THAT(error_of(bodies), HasSubstr("a body within a body"));
+    EXPECT_THAT(error_of(bodies), HasSubstr("inside another part"));
 }
 
 TEST(SoundSurface, FindsTheOnePieceThatIsInsideOut) {

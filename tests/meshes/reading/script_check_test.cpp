@@ -16,8 +16,9 @@ std::string error_of(const std::string& script) {
 }
 
 TEST(ScriptCheck, NamesTheLineAndTheStatementThatIsRejected) {
-    EXPECT_EQ(error_of("r = 1;\n// a sphere\nSystemCall \"touch x\";\n"),
-              "a.geo: line 3: SystemCall starts a program, which a shape may not; delete the statement");
+    EXPECT_EQ(
+        error_of("r = 1;\n// a sphere\nSystemCall \"touch x\";\n"),
+        "a.geo: line 3: SystemCall starts a program, which is not allowed in a shape; delete the statement");
     EXPECT_THAT(error_of("System 'ls';"), StartsWith("a.geo: line 1: System starts a program"));
     EXPECT_THAT(error_of("NonBlockingSystemCall Sprintf(\"ls\");"), StartsWith("a.geo: line 1: NonBlock"));
     EXPECT_THAT(error_of("\n\nOnelabRun(\"c\", \"ls\");"), StartsWith("a.geo: line 3: OnelabRun starts"));

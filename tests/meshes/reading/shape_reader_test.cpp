@@ -179,7 +179,7 @@ TEST(ShapeReader, LooksForNoFileOutsideOfTheFolderOfAGltf) {
     (void)folder.file("a.bin", buffer_of_cube());
     const auto file = folder.file("inner/a.gltf", gltf(nodes, "[0]", "../a.bin"));
     EXPECT_THAT(test::error_of([&] { read_triangles(file, shape_format(file), 300.0); }),
-                AllOf(HasSubstr("is no sound .gltf file"), HasSubstr("export it again as .glb")));
+                AllOf(HasSubstr("is not a valid .gltf file"), HasSubstr("export it again as .glb")));
 }
 
 std::uint32_t crc32(const std::string& bytes) {
@@ -265,14 +265,14 @@ TEST(ShapeReader, Reads3mfInItsUnitWithComponentsWhereTheyArePlaced) {
 
 TEST(ShapeReader, SaysWhatIsWrongInOneLine) {
     EXPECT_THAT(error_of("a.ply", ply("binary_little_endian").substr(0, 400)),
-                HasSubstr("is no sound PLY file"));
-    EXPECT_THAT(error_of("a.ply", "plyx"), HasSubstr("is no sound PLY file"));
+                HasSubstr("is not a valid PLY file"));
+    EXPECT_THAT(error_of("a.ply", "plyx"), HasSubstr("is not a valid PLY file"));
     EXPECT_THAT(error_of("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
-                HasSubstr("is no sound OFF file"));
-    EXPECT_THAT(error_of("a.off", ""), HasSubstr("is no sound OFF file"));
-    EXPECT_THAT(error_of("a.3mf", "PK"), HasSubstr("is no sound 3MF file"));
+                HasSubstr("is not a valid OFF file"));
+    EXPECT_THAT(error_of("a.off", ""), HasSubstr("is not a valid OFF file"));
+    EXPECT_THAT(error_of("a.3mf", "PK"), HasSubstr("is not a valid 3MF file"));
     EXPECT_THAT(error_of("a.gltf", "{}"), HasSubstr(".gltf file"));
-    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("is of no known format"), HasSubstr("Blender")));
+    EXPECT_THAT(error_of("a.fbx", "x"), AllOf(HasSubstr("has an unknown format"), HasSubstr("Blender")));
 }
 
 }  // namespace

@@ -82,9 +82,11 @@ TEST(UntrustedShape, AScriptWithTheNameOfAnotherFormatIsNotRead) {
         EXPECT_THAT(error_of(shape), Not(HasSubstr("SystemCall"))) << name;
         EXPECT_FALSE(std::filesystem::exists(folder / "made")) << name;
     }
-    EXPECT_THAT(error_of(folder / "a.msh"), HasSubstr("is no MSH file: these begin with $MeshFormat"));
-    EXPECT_THAT(error_of(folder / "a.StEp"), HasSubstr("is no STEP file: these begin with ISO-10303-21"));
-    EXPECT_THAT(error_of(folder / "a.brep"), HasSubstr("is no BREP file"));
+    EXPECT_THAT(error_of(folder / "a.msh"),
+                HasSubstr("is not a valid MSH file: a file of this type begins with $MeshFormat"));
+    EXPECT_THAT(error_of(folder / "a.StEp"),
+                HasSubstr("is not a valid STEP file: a file of this type begins with ISO-10303-21"));
+    EXPECT_THAT(error_of(folder / "a.brep"), HasSubstr("is not a valid BREP file"));
     for (const char* name : {"e.msh", "e.step", "e.brep", "e.stl"}) {
         EXPECT_THAT(error_of(folder.file(name, "")), HasSubstr("is empty")) << name;
     }
@@ -103,7 +105,7 @@ TEST(UntrustedShape, AnExitIsAError) {
     EXPECT_THAT(error_of(folder.file("a.geo", box + "Exit;\n")), HasSubstr("line 3: Exit ends gmsh"));
     const auto included = folder.file("exit.inc", "Exit;\n");
     EXPECT_THAT(error_of(folder.file("b.geo", box + "Include \"exit.inc\";\n")),
-                HasSubstr("before it is read through"));
+                HasSubstr("before the end of the file"));
 }
 
 TEST(UntrustedShape, AnEndlessScriptHasAnEnd) {
@@ -112,7 +114,7 @@ TEST(UntrustedShape, AnEndlessScriptHasAnEnd) {
     options.time_limit = 1.0;
     const auto shape =
         folder.file("a.geo", "For i In {1 : 1000000}\nFor j In {1 : 1000000}\nx = i + j;\nEndFor\nEndFor\n");
-    EXPECT_THAT(error_of(shape, options), HasSubstr("takes more than 1 s of computing"));
+    EXPECT_THAT(error_of(shape, options), HasSubstr("needs more than 1 s of CPU time; simplify it"));
 }
 
 TEST(UntrustedShape, ACrashOfItsReaderIsOneLine) {

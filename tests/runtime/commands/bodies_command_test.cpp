@@ -96,12 +96,12 @@ TEST_F(BodiesCommand, ShowsWhatTheFileOfOneHolds) {
 
 TEST_F(BodiesCommand, RefusesBodiesAndFoldersThatAreNotThereInOneLine) {
     expect_rejection({"bodies", "stone"}, "there is no ready-baked body 'stone'");
-    expect_rejection({"bodies", "twig", "-o", "twig.body.h5"}, "there are: pebble");
+    expect_rejection({"bodies", "twig", "-o", "twig.body.h5"}, "choose one of pebble");
     expect_rejection({"bodies", "pebble", "-o", "pebble.h5"}, "name it NAME.body.h5");
     expect_rejection({"bodies", "-o", "pebble.body.h5"}, "-o copies one body; name it");
     const ProgramRun done = run({"bodies"}, "SAMARA_BODIES=nowhere");
     EXPECT_EQ(done.status, 1);
-    EXPECT_THAT(done.error, HasSubstr("SAMARA_BODIES names nowhere, which is no folder"));
+    EXPECT_THAT(done.error, HasSubstr("SAMARA_BODIES names nowhere, which is not a folder"));
     index("body = [\n{ name = \"pebble\", colour = \"red\" }]\n");
     expect_rejection({"bodies"}, "bodies.toml:2: ");
 }

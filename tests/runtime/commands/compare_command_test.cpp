@@ -113,13 +113,13 @@ TEST_F(CompareCommand, DrawsFallsThatDoNotSwingOrMove) {
 }
 
 TEST_F(CompareCommand, RefusesWhatItCannotCompareInOneLine) {
-    expect_rejection({"motion.h5", "none.h5"}, "none.h5: there is no such file");
+    expect_rejection({"motion.h5", "none.h5"}, "none.h5: does not exist; check the name");
     std::ignore = folder_.file("text.h5", "no motion");
     expect_rejection({"motion.h5", "text.h5"}, "text.h5: is not an HDF5 file");
     expect_rejection({"motion.h5", "reference.h5", "--window", "1to4"}, "--window takes BEGIN,END");
     expect_rejection({"motion.h5", "reference.h5", "--window", "1,6"}, "is not within both falls");
-    expect_rejection({"motion.h5", "reference.h5", "--run", "2"}, "there is no run 2");
-    expect_rejection({"motion.h5", "reference.h5", "--reference-copy", "1"}, "there is no copy 1");
+    expect_rejection({"motion.h5", "reference.h5", "--run", "2"}, "not run 2");
+    expect_rejection({"motion.h5", "reference.h5", "--reference-copy", "1"}, "not copy 1");
     expect_rejection({"motion.h5", "reference.h5", "-o", "picture.pdf"}, "end the name in .png or .svg");
     expect_rejection({"motion.h5", "reference.h5", "--body", "leaf"}, "motion.h5: holds no body 'leaf'");
 }

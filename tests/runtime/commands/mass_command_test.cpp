@@ -72,7 +72,7 @@ TEST_F(MassCommand, RefusesWhatIsNoMassInOneLineAndLeavesTheFile) {
         {{}, "--density or --mass"},
         {{"--density", "1", "--mass", "1"}, "one of the two"},
         {{"--density", "1200", "--center-of-mass", "0,0,0"}, "contradicts a uniform --density"},
-        {{"--mass", "0.05", "--center-of-mass", "0,0"}, "no vector"},
+        {{"--mass", "0.05", "--center-of-mass", "0,0"}, "not a vector"},
         {{"--mass", "0.05", "--center-of-mass", "0,0,0.5"}, "within the box of the shape"},
         {{"--mass", "0.05", "--inertia", "1,1,3"}, "at most the sum of the others"},
         {{"--mass", "0.05", "-o", "egg.h5"}, ".body.h5"},

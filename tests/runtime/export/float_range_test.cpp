@@ -43,12 +43,12 @@ TEST_F(FloatRange, HoldsWhatAMotionIsMadeOf) {
 
 TEST_F(FloatRange, EndsForSurfaces) {
     body().surface.vertices[0].x() = 1e39;
-    expect_rejection(motion_, "vertices of 'ellipsoid' lie beyond 1e+37");
+    expect_rejection(motion_, "vertices of 'ellipsoid' exceed 1e+37");
 }
 
 TEST_F(FloatRange, EndsForSizes) {
     body().sizes = {1e300};
-    expect_rejection(motion_, "vertices of 'ellipsoid' lie beyond");
+    expect_rejection(motion_, "vertices of 'ellipsoid' exceed");
 }
 
 TEST_F(FloatRange, EndsForDisplayMeshes) {
@@ -58,26 +58,26 @@ TEST_F(FloatRange, EndsForDisplayMeshes) {
     display.slots = {0};
     display.materials.resize(1);
     body().display = std::make_shared<const DisplayMesh>(display);
-    expect_rejection(motion_, "vertices of the display mesh of 'ellipsoid' lie beyond");
+    expect_rejection(motion_, "vertices of the display mesh of 'ellipsoid' exceed");
     display.positions[2].y() = 1.0;
     display.texture.assign(3, Eigen::Vector2d(1e300, 0.0));
     body().display = std::make_shared<const DisplayMesh>(display);
-    expect_rejection(motion_, "texture coordinates of 'ellipsoid' lie beyond");
+    expect_rejection(motion_, "texture coordinates of 'ellipsoid' exceed");
 }
 
 TEST_F(FloatRange, EndsForPlacesAndVelocities) {
     body().poses[1].position.z() = -1e39;
-    expect_rejection(motion_, "places of 'ellipsoid' lie beyond");
+    expect_rejection(motion_, "places of 'ellipsoid' exceed");
     body().poses[1].position.z() = 0.0;
     body().poses[2].velocity.x() = 1e300;
-    expect_rejection(motion_, "velocities of 'ellipsoid' lie beyond");
+    expect_rejection(motion_, "velocities of 'ellipsoid' exceed");
 }
 
 TEST_F(FloatRange, EndsForTimes) {
     motion_.frame_rate = 1.0;
     for (std::size_t i = 0; i < motion_.times.size(); ++i) motion_.times[i] = static_cast<double>(i);
     motion_.times.back() = 1e300;
-    expect_rejection(motion_, "lie beyond 1e+37");
+    expect_rejection(motion_, "exceed 1e+37");
 }
 
 TEST_F(FloatRange, EndsForObstacles) {
@@ -87,7 +87,7 @@ TEST_F(FloatRange, EndsForObstacles) {
     table.keys = {{{}, 0.0}};
     table.keys[0].position.x() = 1e39;
     motion_.obstacles = {table};
-    expect_rejection(motion_, "places of 'table' lie beyond");
+    expect_rejection(motion_, "places of 'table' exceed");
 }
 
 }  // namespace

@@ -17,9 +17,10 @@ std::string nested(std::size_t depth) {
 
 TEST(JsonText, IsReadUpToADepth) {
     EXPECT_EQ(parse_json(nested(100)).dump(), nested(100));
-    EXPECT_EQ(test::error_of([] { (void)parse_json(nested(101)); }), "nests more than 100 lists and objects");
+    EXPECT_EQ(test::error_of([] { (void)parse_json(nested(101)); }),
+              "nests lists and objects more than 100 deep");
     EXPECT_EQ(test::error_of([] { (void)parse_json(R"({"a":)" + nested(1'000'000) + "}"); }),
-              "nests more than 100 lists and objects");
+              "nests lists and objects more than 100 deep");
     EXPECT_TRUE(parse_json_or_discard(nested(101)).is_discarded());
     EXPECT_EQ(parse_json_or_discard(nested(100)).dump(), nested(100));
 }
@@ -31,7 +32,7 @@ TEST(JsonText, CountsNoBracketsOfStrings) {
 }
 
 TEST(JsonText, ThatIsNoneSaysWhere) {
-    EXPECT_THAT(test::error_of([] { (void)parse_json("[1,"); }), HasSubstr("is no JSON ("));
+    EXPECT_THAT(test::error_of([] { (void)parse_json("[1,"); }), HasSubstr("is not valid JSON ("));
     EXPECT_TRUE(parse_json_or_discard("[1,").is_discarded());
     EXPECT_TRUE(parse_json_or_discard("").is_discarded());
     EXPECT_TRUE(parse_json_or_discard("]]]][[[[").is_discarded());

@@ -275,7 +275,7 @@ TEST(KirchhoffTensor, NamesTheErrorOfABadSurface) {
 
     Surface one_flipped = sound;
     std::swap(one_flipped.corners[7][0], one_flipped.corners[7][1]);
-    EXPECT_THAT(message_of(one_flipped), HasSubstr("turned against the others"));
+    EXPECT_THAT(message_of(one_flipped), HasSubstr("oriented against the others"));
 
     Surface inside_out = sound;
     for (auto& triangle : inside_out.corners) std::swap(triangle[0], triangle[1]);
@@ -303,7 +303,7 @@ TEST(KirchhoffTensor, NamesTheErrorOfABadSurface) {
     nested.vertices.insert(nested.vertices.end(), inner.vertices.begin(), inner.vertices.end());
     for (const auto& [a, b, c] : inner.corners)
         nested.corners.push_back({a + offset, b + offset, c + offset});
-    EXPECT_THAT(message_of(nested), HasSubstr("a body within a body"));
+    EXPECT_THAT(message_of(nested), HasSubstr("inside another part"));
 }
 
 TEST(TensorError, IsTheWorstBlocksAndMeasuresZeroBlocksByTheScale) {

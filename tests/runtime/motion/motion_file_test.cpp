@@ -66,10 +66,10 @@ TEST(MotionFile, RefusesUncertaintiesThatAreNone) {
     EXPECT_THAT(error_with({{"mesh", "descent_speed", -0.1}}), HasSubstr("uncertainty that is negative"));
     EXPECT_THAT(error_with({{"mesh", "descent_speed", 0.1, -0.1}}),
                 HasSubstr("uncertainty that is negative"));
-    EXPECT_THAT(error_with({{"", "descent_speed", 0.1}}), HasSubstr("twice or without a name"));
-    EXPECT_THAT(error_with({{"mesh", "a/b", 0.1}}), HasSubstr("twice or without a name"));
+    EXPECT_THAT(error_with({{"", "descent_speed", 0.1}}), HasSubstr("duplicate or unnamed uncertainty"));
+    EXPECT_THAT(error_with({{"mesh", "a/b", 0.1}}), HasSubstr("duplicate or unnamed uncertainty"));
     EXPECT_THAT(error_with({{"mesh", "descent_speed", 0.1}, {"mesh", "descent_speed", 0.1}}),
-                HasSubstr("twice or without a name"));
+                HasSubstr("duplicate or unnamed uncertainty"));
 }
 
 TEST(MotionFile, GivesBackWhatWasWritten) {
@@ -195,14 +195,14 @@ TEST(MotionFile, ThatTheDiskHasNoRoomForIsRefusedAndLeavesNothing) {
     bool filled = false;
     const std::string error = error_of(
         [&] { write_motion_file(folder / "motion.h5", motion, [&](MotionWriter&) { filled = true; }); });
-    EXPECT_THAT(error, AllOf(HasSubstr("motion.h5"), HasSubstr("no room")));
+    EXPECT_THAT(error, AllOf(HasSubstr("motion.h5"), HasSubstr("no space")));
     EXPECT_FALSE(filled);
     EXPECT_EQ(folder.file_count(), 0);
 }
 
 TEST(MotionFile, RefusesFilesOfOtherKinds) {
     const TemporaryFolder folder;
-    EXPECT_THAT(reading_error(folder / "none.h5"), HasSubstr("no such file"));
+    EXPECT_THAT(reading_error(folder / "none.h5"), HasSubstr("does not exist"));
     replace_file_with(folder / "text.h5", "not HDF5");
     EXPECT_THAT(reading_error(folder / "text.h5"), HasSubstr("not an HDF5 file"));
     write_hdf5(folder / "other.h5", [](Hdf5Writer& file) { file.attribute("/moments", "volume", 1.0); });

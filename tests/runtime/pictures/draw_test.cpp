@@ -65,23 +65,23 @@ TEST_F(Plot, IsOfTheBodyRunAndCopyAskedForAndNamesWhatIsThereOtherwise) {
     EXPECT_EQ(done.json()["measures"]["regime"], "tumbling");
     EXPECT_THAT(read_bytes(folder_ / "out.svg"), HasSubstr("plate: tumbling, descends at 0.4"));
     expect_rejected(plot("out.png", {"--body", "leaf"}), "holds no body 'leaf'; it holds: ellipsoid, plate");
-    expect_rejected(plot("out.png", {"--copy", "1"}), "there is no copy 1");
-    expect_rejected(plot("out.png", {"--run", "3"}), "there is no run 3");
+    expect_rejected(plot("out.png", {"--copy", "1"}), "not copy 1");
+    expect_rejected(plot("out.png", {"--run", "3"}), "not run 3");
     expect_rejected(plot("out.pdf"), ".png or .svg");
     expect_rejected(plot("none/out.png"), "does not exist");
 }
 
 TEST_F(Plot, SaysWhatToInstallWhereAModuleOrPythonIsMissing) {
     expect_rejected(plot("out.png", {}, fake_python("echo matplotlib >&2; exit 3\n")),
-                    "is made by Python's matplotlib, which is not installed: apt install python3-matplotlib");
+                    "needs Python's matplotlib, which is not installed: apt install python3-matplotlib");
     expect_rejected(plot("out.png", {}, "SAMARA_PYTHON=none-such"), "SAMARA_PYTHON names none-such");
 }
 
 TEST_F(Plot, PassesOnWhyPythonFailedAndLeavesTheLastPicture) {
     expect_rejected(
         plot("out.png", {}, fake_python("echo 'Traceback'; echo 'MemoryError: full' >&2; exit 1\n")),
-        "could not make the picture: MemoryError: full");
-    expect_rejected(plot("out.png", {}, fake_python("exit 0\n")), "it gave no reason");
+        "failed to make the picture: MemoryError: full");
+    expect_rejected(plot("out.png", {}, fake_python("exit 0\n")), "no reason");
     (void)folder_.file("kept.png", "as it was");
     EXPECT_EQ(plot("kept.png", {}, fake_python("exit 1\n")).status, 1);
     EXPECT_EQ(read_bytes(folder_ / "kept.png"), "as it was");
@@ -110,7 +110,7 @@ TEST_F(Plot, OfAComparisonShowsBothFilesAndLeavesTheTextWherePythonFails) {
     const std::vector<std::string> words = {"samara", "compare", "motion.h5", "motion.h5",
                                             "--body", "plate",   "-o",        "out.png"};
     const ProgramRun failed = run_program_in(folder_, words, fake_python("exit 1\n"));
-    expect_rejected(failed, "could not make the picture");
+    expect_rejected(failed, "failed to make the picture");
     EXPECT_THAT(failed.output, HasSubstr("the motion agrees with the reference"));
     const ProgramRun done = run_program_in(folder_, words);
     ASSERT_EQ(done.status, 0) << done.error;

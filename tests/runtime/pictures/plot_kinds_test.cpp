@@ -161,7 +161,7 @@ TEST_F(PlotKinds, WhatCannotBeDrawnIsRefusedInOneLine) {
         EXPECT_FALSE(std::filesystem::exists(folder_ / "no.svg"));
     };
     rejected({"flutter.h5", "-o", "no.svg", "--kind", "landing"}, "needs more than one fall");
-    rejected({"many.h5", "-o", "no.svg", "--kind", "landing", "--copy", "1"}, "is of all runs and copies");
+    rejected({"many.h5", "-o", "no.svg", "--kind", "landing", "--copy", "1"}, "shows all runs and copies");
     rejected({"flutter.h5", "-o", "no.svg", "--kind", "pie"}, "--kind");
     Motion cube = test::motion_of([](double t) { return test::tumble(t, 6.0, 0.3); }, 4.0);
     cube.bodies[0].surface = test::box({2.0, 2.0, 2.0}, 1);

@@ -50,10 +50,10 @@ class Scenes(unittest.TestCase):
     def test_faults_name_the_place_and_the_remedy(self):
         for error, scene in {
             "scene: unknown key 'densty' in [[body]]; did you mean 'density'": leaves(densty=600),
-            "scene['body'][0]['position'] is of the type set": leaves(position={1, 2}),
+            "scene['body'][0]['position'] has the type set": leaves(position={1, 2}),
             "a list of 3 numbers": leaves(position=[0, 0]),
             "finite": leaves(position=[0, 0, math.nan]),
-            "has the key 3; keys are texts": {"scene": {3: 1}},
+            "has the key 3; keys must be strings": {"scene": {3: 1}},
             "there is no ready-baked body": leaves(shape="samara:lead"),
         }.items():
             with self.subTest(error), self.assertRaises(samara.Error) as caught:
@@ -73,13 +73,13 @@ class Scenes(unittest.TestCase):
         array[0] = array
         for values in (endless(), deep, {"scene": endless()}, {"scene": ring}, {"scene": deep_list}, leaves(position=ring),
                        leaves(position=array), leaves(position=(ring, ring))):
-            with self.assertRaisesRegex(samara.InputError, "does one hold itself") as caught:
+            with self.assertRaisesRegex(samara.InputError, "check that none contains itself") as caught:
                 samara.Scene(values)
             self.assertLess(len(str(caught.exception)), 200)
 
     def test_numbers_beyond_all_range_and_texts_that_are_none_are_refused(self):
         for error, scene in {"beyond 64 bits": leaves(count=10**400), "finite": leaves(position=[0, 0, 1e999]),
-                             "no Unicode": leaves(name="\ud800"), "holds a text": {"\ud800": 1}}.items():
+                             "not valid Unicode": leaves(name="\ud800"), "holds a string": {"\ud800": 1}}.items():
             with self.subTest(error), self.assertRaisesRegex(samara.InputError, error):
                 samara.Scene(scene)
 
@@ -274,9 +274,9 @@ class Motions(unittest.TestCase):
         self.assertEqual(set(read), {5})
 
     def test_what_is_not_there_is_named(self):
-        with self.assertRaisesRegex(KeyError, "the bodies are leaf"):
+        with self.assertRaisesRegex(KeyError, "is not a body; choose one of leaf"):
             self.motion["seed"]
-        with self.assertRaisesRegex(IndexError, "run 2: there are 2"):
+        with self.assertRaisesRegex(IndexError, "run 2: there are only 2"):
             self.leaf.measure(run=2)
         with self.assertRaisesRegex(IndexError, "copy -1"):
             self.leaf.measure(copy=-1)

@@ -83,7 +83,7 @@ TEST(Obstacle, MovesEvenlyBetweenItsKeysAndByTheShortestTurn) {
 }
 
 TEST(Obstacle, OfBadInputIsRefusedInOneLineThatSaysWhereAndWhatToDo) {
-    expect_rejected("shape = \"none.obj\"\n", "shape in [[obstacle]] cannot be had");
+    expect_rejected("shape = \"none.obj\"\n", "shape in [[obstacle]] cannot be read");
     expect_rejected("", "shape in [[obstacle]] is missing; give a mesh, .stl, .obj or .glb");
     expect_rejected("shape = \"mesh.ply\"\n", "must be a mesh, .stl, .obj or .glb, not 'mesh.ply'");
     expect_rejected("shape = \"mesh.obj\"\nfriction = -1\n",
@@ -95,24 +95,24 @@ TEST(Obstacle, OfBadInputIsRefusedInOneLineThatSaysWhereAndWhatToDo) {
     expect_rejected("shape = \"mesh.obj\"\nkeys = [{ position = [0, 0, 0] }]\n",
                     "time in [[keys]] is missing");
     expect_rejected("shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1 }]\n",
-                    "must be later than that of the key before");
-    expect_rejected(
-        "shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1.01, position = [2, 0, 0] }]\n",
-        "keys in [[obstacle]] jump: from 1 s to 1.01 s the mesh moves at 200 m/s, and 100 is the most");
-    expect_rejected("shape = \"mesh.obj\"\n", "turned against the others",
+                    "must be later than that of the previous key");
+    expect_rejected("shape = \"mesh.obj\"\nkeys = [{ time = 1 }, { time = 1.01, position = [2, 0, 0] }]\n",
+                    "keys in [[obstacle]] are too fast: from 1 s to 1.01 s the mesh moves at 200 m/s, above "
+                    "the limit of 100");
+    expect_rejected("shape = \"mesh.obj\"\n", "oriented against the others",
                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\nv 2 0 0\nf 2 5 3\n");
     expect_rejected("shape = \"mesh.obj\"\n", "has no area",
                     "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
     expect_rejected("shape = \"mesh.obj\"\n", "faces share the edge",
                     roof + "v 0 0 1\nv 0 0 -1\nf 1 2 5\nf 1 2 6\n");
     expect_rejected("shape = \"mesh.obj\"\n[[obstacle]]\nname = \"roof\"\nshape = \"mesh.obj\"\n",
-                    "'roof' is taken by another obstacle");
+                    "name in [[obstacle]] is 'roof', as of another obstacle");
     std::string inside_out = cube;
     for (std::size_t at = inside_out.find("f "); at != std::string::npos;
          at = inside_out.find("f ", at + 1)) {
         std::swap(inside_out[at + 2], inside_out[at + 6]);
     }
-    expect_rejected("shape = \"mesh.obj\"\n", "turn them round where it was modelled", inside_out);
+    expect_rejected("shape = \"mesh.obj\"\n", "flip the normals in the modelling program", inside_out);
 }
 
 TEST(Obstacle, AroundABodyThatStartsInsideOrAcrossItIsRefused) {

@@ -89,7 +89,7 @@ TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
     expect_rejected("vortex = 3", "vortex in [wind] must be written as [[vortex]]");
     expect_rejected("profile = { law = \"log\" }", "velocity in [wind] is missing");
     expect_rejected("velocity = [1, 0, 1]\nprofile = { law = \"log\" }",
-                    "scene.toml:9: velocity in [wind] must be level");
+                    "scene.toml:9: velocity in [wind] must be horizontal");
     const auto profile = [](const std::string& keys, const std::string& message) {
         expect_rejected("velocity = [1, 0, 0]\nprofile = { " + keys + " }", "scene.toml:10: " + message);
     };
@@ -97,8 +97,8 @@ TEST(WindTable, RefusesWithOneLineThatNamesThePlace) {
     profile("law = \"linear\"", "law in [profile] must be one of \"log\", \"power\"");
     profile("law = \"log\", height = -10", "height in [profile] must be a finite number above 0");
     profile("law = \"log\", roughness = 0", "roughness in [profile] must");
-    profile("law = \"log\", exponent = 0.1", "exponent in [profile] is for law = \"power\"");
-    profile("law = \"power\", roughness = 0.1", "roughness in [profile] is for law = \"log\"");
+    profile("law = \"log\", exponent = 0.1", "exponent in [profile] applies only to law = \"power\"");
+    profile("law = \"power\", roughness = 0.1", "roughness in [profile] applies only to law = \"log\"");
     profile("law = \"power\", exponent = 1.5", "exponent in [profile] must");
     profile("law = \"log\", ground = inf", "ground in [profile] must");
     profile("law = \"log\", hight = 2", "unknown key 'hight' in [profile]; did you mean 'height'?");
@@ -162,7 +162,7 @@ TEST(WindTable, RefusesAFileThatEndsBeforeTheScene) {
     const test::TemporaryFolder folder;
     const std::string path = wind_file_in(folder, 2).string();  // half a second, and the scene a whole one
     const std::string lines = fmt::format("[wind.file]\npath = \"{}\"\n", path);
-    expect_rejected(lines, "holds the wind until 0.5 s, and the scene ends at 1 s; give repeat = true");
+    expect_rejected(lines, "holds the wind until 0.5 s, but the scene ends at 1 s; give repeat = true");
     EXPECT_TRUE(scene_with(lines + "repeat = true").wind.file->repeats);
     EXPECT_TRUE(scene_with(lines + "start = 0.5").wind.file);
     EXPECT_TRUE(

@@ -55,7 +55,7 @@ def simulate_in_window(file):
     scene.frame_end, scene.samara.step = 3000, 1e-5  # many seconds
     watch = Watch(operator)
     found = {"pressed": press(bpy.ops.samara.simulate)}
-    while watch.runs() and watch.lines[-1:] in ([], ["samara simulates: 0 %"]):
+    while watch.runs() and watch.lines[-1:] in ([], ["samara is simulating: 0 %"]):
         yield 0.05
     found["halfway"] = watch.lines[-1]
     press_escape()

@@ -22,7 +22,7 @@ def plan(data: dict[str, Any]) -> Any:
     """
     figure = new_figure()
     heading(figure, data["name"], ": directions of motion in the body's axes",
-            "each half of the sphere equal in area: as many dots are as much time",
+            "equal-area maps of both halves: the density of dots is proportional to time",
             words=[("visited", BLUE), ("case or its image", ORANGE)])
     visited, cases = (np.asarray(data[key], dtype=float).reshape(-1, 3) for key in ("visited", "cases"))
     for column, upper in enumerate((True, False)):
@@ -82,8 +82,8 @@ def histories(data: dict[str, Any]) -> Any:
     `data`: name and cases: iterations, drag, moment and k at these (or none), residual_iterations and residuals.
     """
     figure = new_figure()
-    heading(figure, data["name"], ": how its cases settled",
-            f"a line for each of {len(data['cases'])} cases  ·  their last halves count")
+    heading(figure, data["name"], ": convergence of the cases",
+            f"one line for each of {len(data['cases'])} cases  ·  means over the last halves")
     for place, (key, title) in enumerate(_HISTORIES):
         axes = panel(figure, quarter(place % 2, place // 2), title, "iteration")
         logarithmic = key == "residuals"

@@ -154,7 +154,7 @@ def _ladders(figure: Any, data: dict[str, Any], key: str, title: str, row: int) 
             cells += [count for count, _ in pairs]
             shown += [value for _, value in pairs]
     if not cells:
-        return empty(axes, "the body file holds no such cases")
+        return empty(axes, "the body file has no such cases")
     _logarithmic(axes, cells)
     axes.set_ylim(airy(shown))
     return None
@@ -178,7 +178,7 @@ def _error_sources(figure: Any, sources: list[dict[str, Any]]) -> None:
     names = [(source["source"], COLORS[source["place"] % len(COLORS)]) for source in sources]
     axes = panel(figure, quarter(1, 1), "Standard errors by source (%, rms)", "")
     if not sources:
-        return empty(axes, "the body file does not tell its errors' sources apart")
+        return empty(axes, "the body file has no errors by source")
     quantities = ("force", "moment", "k", "epsilon")
     wide = 0.8 / len(sources)
     for place, (source, (_, color)) in enumerate(zip(sources, names)):

@@ -32,21 +32,21 @@ TEST(UnitWarnings, ThereAreNoneOfBodiesThatFallInNature) {
 TEST(UnitWarnings, MillimetresReadAsMetresNameTheScale) {
     EXPECT_THAT(warnings(20.0, 2700.0),
                 AllOf(HasSubstr("40 m long and falls at a Reynolds number of about"),
-                      HasSubstr("is its shape in millimetres? then give --scale 0.001")));
+                      HasSubstr("if its shape is in millimetres, give --scale 0.001")));
     EXPECT_THAT(warnings(20.0, 2700.0, test::water(), ScaleRemedy::scene_key), HasSubstr("scale = 0.001"));
     EXPECT_THAT(warnings(20.0, 2700.0, test::water(), ScaleRemedy::mesh_again),
                 HasSubstr("mesh its shape again"));
     EXPECT_THAT(warnings(2.0, 7850.0), HasSubstr("Reynolds number")) << "4 m, by its Reynolds number alone";
     EXPECT_THAT(size_warnings(test::exact_sphere(20.0), ScaleRemedy::option),
                 AllOf(HasSubstr("40 m long: "), Not(HasSubstr("Reynolds"))));
-    EXPECT_THAT(warnings(2e-5, 2700.0), HasSubstr("scaled twice"));
+    EXPECT_THAT(warnings(2e-5, 2700.0), HasSubstr("scaled only once"));
     EXPECT_EQ(scale_remedy_in_scene("a.body.h5"), ScaleRemedy::mesh_again);
     EXPECT_EQ(scale_remedy_in_scene("a.stl"), ScaleRemedy::scene_key);
 }
 
 TEST(UnitWarnings, GramsInACubicCentimetreNameTheDensityInKilograms) {
-    EXPECT_EQ(warnings(0.02, 2.7), "a density of 2.7 kg/m^3: is that in g/cm^3? then it is 2700 kg/m^3");
-    EXPECT_THAT(warnings(0.02, 0.6, test::air()), HasSubstr("then it is 600 kg/m^3"));
+    EXPECT_EQ(warnings(0.02, 2.7), "a density of 2.7 kg/m^3: if it is in g/cm^3, give 2700");
+    EXPECT_THAT(warnings(0.02, 0.6, test::air()), HasSubstr("give 600"));
     EXPECT_THAT(warnings(20.0, 2.7), AllOf(HasSubstr("--scale 0.001; and a density of 2.7")));
     EXPECT_THAT(warnings(0.02, 2.7e6), HasSubstr("above that of any metal"));
 }
@@ -56,7 +56,7 @@ TEST(UnitWarnings, OfAMassAreThoseOfTheMeanDensity) {
     MassSpecification grams;
     grams.mass = 1200.0 * ball.moments.volume * 1000.0;
     EXPECT_THAT(unit_warnings(ball, grams, test::water(), 9.81, ScaleRemedy::option),
-                HasSubstr("is its mass in grams"));
+                HasSubstr("check that its mass is in kg"));
     EXPECT_EQ(unit_warnings(
                   ball, MassSpecification{.density = {}, .mass = 0.04, .center_of_mass = {}, .inertia = {}},
                   test::water(), 0.0, ScaleRemedy::option),

@@ -97,12 +97,12 @@ TEST(ModelAdvice, ALaminarFlowNeedsNoTurbulence) {
     const BodyAdvice by_table = advice_of(scene_of(1300.0, test::water()), ball);
     EXPECT_EQ(by_table.full.models.turbulence, Turbulence::none);
     EXPECT_EQ(by_table.recommended.models.turbulence, Turbulence::none);
-    EXPECT_THAT(by_table.notes, Contains(HasSubstr("the table's is zero")));
+    EXPECT_THAT(by_table.notes, Contains(HasSubstr("the tables' turbulence is zero")));
     Fluid syrup = test::water();
     syrup.viscosity *= 200.0;  // laminar with the turbulence of the tables too
     const BodyAdvice by_number = advice_of(scene_of(1300.0, syrup), baked_ball());
     EXPECT_EQ(by_number.recommended.models.turbulence, Turbulence::none);
-    EXPECT_THAT(by_number.notes, Contains(HasSubstr("the Reynolds number stays at")));
+    EXPECT_THAT(by_number.notes, Contains(HasSubstr("the Reynolds number is")));
 }
 
 TEST(ModelAdvice, ATableThatDoesNotChangeWithTheReynoldsNumberNeedsOne) {
@@ -179,7 +179,7 @@ TEST(ModelAdvice, BeforeABakeJudgesTheAddedMassAlone) {
     const BodyAdvice advice = advice_of(in_air, bare);
     ASSERT_EQ(advice.omissions.size(), 1U);
     EXPECT_EQ(advice.omissions[0].part, ModelPart::added_mass);
-    EXPECT_THAT(advice.notes, Contains(HasSubstr("not known before a bake")));
+    EXPECT_THAT(advice.notes, Contains(HasSubstr("unknown before a bake")));
     ModelSet expected = model_set_of(in_air.bodies[0]);
     expected.added_mass = false;
     EXPECT_EQ(advice.recommended.models, expected);

@@ -89,7 +89,7 @@ TEST(StepAdvice, IsTheLongestWhereNothingMoves) {
     EXPECT_EQ(advice.step, 0.04);
     EXPECT_EQ(advice.error, 0.0);
     EXPECT_EQ(advice.limit, "");
-    EXPECT_EQ(as_text(advice), "40 ms, off by 0 % of the distance covered; the longest there is");
+    EXPECT_EQ(as_text(advice), "40 ms, off by 0 % of the distance covered; the longest possible");
 }
 
 TEST(StepAdvice, LetsTurbulenceMakeTheDiffusionTooLargeByTheToleranceAtMost) {

@@ -129,7 +129,7 @@ TEST(Comparison, RefusesAWindowThatOneOfTheFallsDoesNotCover) {
     for (const TimeWindow window : {TimeWindow{1.0, 5.0}, TimeWindow{2.0, 1.0}, TimeWindow{-1.0, 2.0}}) {
         settings.window = window;
         EXPECT_THAT(error_of([&] { compare_motions(motion, motion, settings); }),
-                    HasSubstr("is not within both falls: motion.h5 shows 4 s, reference.h5 shows 4 s"));
+                    HasSubstr("is not within both falls: motion.h5 lasts 4 s, reference.h5 lasts 4 s"));
     }
 }
 
@@ -189,10 +189,10 @@ TEST(Comparison, NamesWhatMakesMetricsDoubtful) {
     Motion other = test::motion_of(sparse, 1.0, 30.0);
     for (Vector3d& vertex : other.bodies[0].surface.vertices) vertex *= 1.2;
     const Comparison comparison = compare_motions(flutter(1.3, 0.6, 0.2, 1.0), other);
-    EXPECT_THAT(comparison.notes, Contains(HasSubstr("the bodies are not the same")));
+    EXPECT_THAT(comparison.notes, Contains(HasSubstr("the bodies differ")));
     EXPECT_THAT(comparison.notes, Contains(HasSubstr("degrees apart at the release")));
     EXPECT_THAT(comparison.notes, Contains(HasSubstr("the reference has 4.8 frames for each swing")));
-    EXPECT_THAT(comparison.notes, Contains(HasSubstr("the motion's window shows too few swings")));
+    EXPECT_THAT(comparison.notes, Contains(HasSubstr("the motion's window has too few swings")));
 }
 
 TEST(Comparison, RefusesOtherGravityAndFramesTooFarApartAndSingleFrames) {
@@ -200,12 +200,12 @@ TEST(Comparison, RefusesOtherGravityAndFramesTooFarApartAndSingleFrames) {
     Motion on_the_moon = motion;
     on_the_moon.gravity = Vector3d(0.0, 0.0, -1.62);
     EXPECT_THAT(error_of([&] { compare_motions(motion, on_the_moon); }),
-                HasSubstr("reference.h5 has [0, 0, -1.62]: the two cannot be compared"));
+                HasSubstr("reference.h5 has [0, 0, -1.62]: they cannot be compared"));
     const Motion fast = test::motion_of([](double t) { return test::tumble(t, 40.0, 0.2); }, 4.0, 24.0);
     EXPECT_THAT(error_of([&] { compare_motions(fast, motion); }),
-                HasSubstr("motion.h5: 'ellipsoid' rotates by up to 95 degrees from one frame to the next"));
+                HasSubstr("motion.h5: 'ellipsoid' rotates by up to 95 degrees between frames"));
     const Motion single = test::motion_of([](double) { return Pose{}; }, 0.0);
-    EXPECT_THAT(error_of([&] { compare_motions(motion, single); }), HasSubstr("is a single frame"));
+    EXPECT_THAT(error_of([&] { compare_motions(motion, single); }), HasSubstr("has a single frame"));
 }
 
 TEST(Comparison, IsCertainOnlyWhereTheErrorsAllowIt) {
@@ -303,7 +303,7 @@ TEST(Comparison, LeavesTheRegimeOpenThatTheReferenceItselfIsUncertainOf) {
     const Comparison comparison = compare_motions(motion, reference, wide);
     EXPECT_TRUE(comparison.regime_is_uncertain);
     EXPECT_TRUE(comparison.agrees && !comparison.certain);
-    EXPECT_THAT(as_text(comparison), HasSubstr("the reference's own is uncertain"));
+    EXPECT_THAT(as_text(comparison), HasSubstr("the reference itself is uncertain"));
 }
 
 TEST(MetricComparison, WithoutAFrequencyOnBothSidesIsNotJudgedAndOnOneSideDiffers) {

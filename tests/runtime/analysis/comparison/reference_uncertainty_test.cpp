@@ -73,7 +73,7 @@ TEST_F(ReferenceUncertainty, IsOfOneSceneAlone) {
     Motion other = reference;
     other.scene_text += "# another";
     EXPECT_THAT(test::error_of([&] { (void)beside(reference, other); }),
-                HasSubstr("is of another scene than"));
+                HasSubstr("is not from the same scene as"));
     other = reference;
     other.bodies.push_back(other.bodies.front());
     other.bodies.back().name = "second";

@@ -49,15 +49,15 @@ class HelpfulWords : public ::testing::Test {
 };
 
 TEST_F(HelpfulWords, NameTheCommandOrOptionThatWasMeant) {
-    expect_rejection({"simulte", "scene.toml"}, "there is no command 'simulte'; did you mean 'simulate'?");
-    expect_rejection({"fly"}, "there is no command 'fly'; see 'samara --help'");
+    expect_rejection({"simulte", "scene.toml"}, "unknown command 'simulte'; did you mean 'simulate'?");
+    expect_rejection({"fly"}, "unknown command 'fly'; see 'samara --help'");
     expect_rejection({"simulate", "scene.toml", "-o", "x.h5", "--sed", "3"},
-                     "samara simulate: there is no option '--sed'; did you mean '--seed'?");
+                     "samara simulate: unknown option '--sed'; did you mean '--seed'?");
     expect_rejection({"simulate", "scene.toml", "-o", "x.h5", "--trheads=2"}, "did you mean '--threads'?");
     expect_rejection({"simulate", "scene.toml", "-o", "x.h5", "--colour"},
-                     "there is no option '--colour'; see 'samara simulate --help'");
+                     "unknown option '--colour'; see 'samara simulate --help'");
     expect_rejection({"simulate", "scene.toml", "more.toml", "-o", "x.h5"},
-                     "'more.toml' is one word too many");
+                     "unexpected argument 'more.toml'; leave it out");
 }
 
 TEST_F(HelpfulWords, NameTheMisspeltOptionRatherThanTheOneThatItLeavesMissing) {
@@ -67,7 +67,7 @@ TEST_F(HelpfulWords, NameTheMisspeltOptionRatherThanTheOneThatItLeavesMissing) {
 
 TEST_F(HelpfulWords, OfANumberWithAUnitSayInWhichUnitsNumbersAre) {
     expect_rejection({"export", "x.h5", "-o", "x.glb", "--tolerance", "3mm"},
-                     "'3mm' is no number; numbers stand without a unit, in SI units: m, kg, s, rad");
+                     "'3mm' is not a number; give a number without a unit, in SI units: m, kg, s, rad");
     expect_rejection({"search", "scene.toml", "--target", "0,0,0,5cm"}, "x,y,z,radius in metres");
     (void)folder_.file("units.toml", "[scene]\nduration = \"2 s\"\n");
     expect_rejection({"simulate", "units.toml", "-o", "x.h5"},
@@ -85,7 +85,7 @@ TEST_F(HelpfulWords, OfAMotionInAnotherFormatNameTheCommandThatWritesIt) {
 
 TEST_F(HelpfulWords, OfASearchWhereNothingIsDrawnComeAtOnceAndSayWhatToAdd) {
     expect_rejection({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "10000000"},
-                     "all seeds give the same; give the body a count with a spread");
+                     "does not depend on the seed; give the body a count with a spread");
     EXPECT_EQ(run({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "1"}).status, 0);
 }
 
@@ -94,8 +94,8 @@ TEST_F(HelpfulWords, OfOneKindComeOnceInOneLine) {
     ASSERT_EQ(done.status, 0);
     EXPECT_EQ(
         done.error,
-        "samara simulate: note: 'a', 'b' and 2 more (values of 'c'): the added mass may be wrong by 50 % "
-        "(error estimate): the body is thin or its mesh coarse\n");
+        "samara simulate: warning: 'a', 'b' and 2 more (values of 'c'): the added mass may be off by 50 % "
+        "(error estimate): the body is thin or its mesh is coarse\n");
 }
 
 TEST_F(HelpfulWords, OfUnitsAreOneLineForThoseThatSayTheSame) {
@@ -109,8 +109,8 @@ TEST_F(HelpfulWords, OfUnitsAreOneLineForThoseThatSayTheSame) {
     const test::ProgramRun done = run({"simulate", "light.toml", "-o", "x.h5"});
     ASSERT_EQ(done.status, 0);
     EXPECT_THAT(done.error,
-                testing::StartsWith("samara simulate: note: 'a' and 'b': a density of 2.7 kg/m^3"));
-    EXPECT_THAT(done.error, HasSubstr("samara simulate: note: 'c': a density of 0.6 kg/m^3"));
+                testing::StartsWith("samara simulate: warning: 'a' and 'b': a density of 2.7 kg/m^3"));
+    EXPECT_THAT(done.error, HasSubstr("samara simulate: warning: 'c': a density of 0.6 kg/m^3"));
 }
 
 TEST_F(HelpfulWords, AreJsonWithJsonWhateverIsWrong) {
@@ -123,10 +123,10 @@ TEST_F(HelpfulWords, AreJsonWithJsonWhateverIsWrong) {
         return done.json()["error"].get<std::string>();
     };
     EXPECT_EQ(error_of({"simulate", "none.toml", "-o", "x.h5", "--json"}),
-              "none.toml: there is no such file");
+              "none.toml: does not exist; check the name");
     EXPECT_EQ(error_of({"simulate", "--json", "--sed", "3"}),
-              "there is no option '--sed'; did you mean '--seed'?");
-    EXPECT_THAT(error_of({"nonsense", "--json"}), HasSubstr("no command 'nonsense'"));
+              "unknown option '--sed'; did you mean '--seed'?");
+    EXPECT_THAT(error_of({"nonsense", "--json"}), HasSubstr("unknown command 'nonsense'"));
     EXPECT_THAT(run({"info", "\xff\x1b[2J.h5", "--json"}).output, Not(HasSubstr("\x1b")));
 }
 

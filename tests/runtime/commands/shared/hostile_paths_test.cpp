@@ -146,7 +146,7 @@ TEST(HostilePaths, OfOutputsAreSeenBeforeTheWork) {
         if (!std::filesystem::exists(SAMARA_PROGRAMS "/samara-" + words.front())) continue;  // a baking tool
         Words command = words;
         command.insert(command.begin(), "samara");
-        expect_rejection(folder, command, "since not-read is a file; give another folder");
+        expect_rejection(folder, command, "as not-read is a file; give another folder");
     }
     std::filesystem::create_directory(folder / "out.h5");
     expect_rejection(folder, {"samara", "simulate", "not-read", "-o", "out.h5"}, "out.h5: is a folder");

@@ -52,7 +52,7 @@ TEST(MachineMemory, WithinControlGroupsOfTheFirstVersionIsFoundToo) {
 TEST(MachineMemory, ThatIsNotThereIsRefusedWithWhatToDo) {
     EXPECT_NO_THROW(require_memory(1e6, "the flight", "lower the count"));
     EXPECT_THAT(test::error_of([] { require_memory(1e17, "the flight", "lower the count"); }),
-                AllOf(HasSubstr("the flight takes 1e+08 GB of memory, and "),
+                AllOf(HasSubstr("the flight needs 1e+08 GB of memory, but "),
                       HasSubstr(" GB are free; lower the count")));
 }
 

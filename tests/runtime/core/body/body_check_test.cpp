@@ -79,11 +79,11 @@ TEST(BodyCheck, MomentsThatTheSurfaceDoesNotHaveAreRefused) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_THAT(error([](VolumeMoments& m) { m.volume = 0.0; }), HasSubstr("volume is not positive"));
     EXPECT_THAT(error([&](VolumeMoments& m) { m.volume = infinity; }), HasSubstr("volume is not positive"));
-    EXPECT_THAT(error([](VolumeMoments& m) { m.volume *= 2.0; }), HasSubstr("not that of the surface"));
+    EXPECT_THAT(error([](VolumeMoments& m) { m.volume *= 2.0; }), HasSubstr("does not match the surface"));
     EXPECT_THAT(error([](VolumeMoments& m) { m.surface_area = std::nan(""); }), HasSubstr("surface area"));
     EXPECT_THAT(error([](VolumeMoments& m) { m.surface_area *= 0.1; }), HasSubstr("surface area"));
     EXPECT_THAT(error([](VolumeMoments& m) { m.centroid.x() = 1.0; }), HasSubstr("/moments/centroid"));
-    EXPECT_THAT(error([](VolumeMoments& m) { m.centroid.x() = 1e250; }), HasSubstr("no body's size"));
+    EXPECT_THAT(error([](VolumeMoments& m) { m.centroid.x() = 1e250; }), HasSubstr("which is too large"));
     EXPECT_THAT(error([](VolumeMoments& m) { m.second_moments *= 1e250; }), HasSubstr("second_moments"));
     EXPECT_THAT(error([](VolumeMoments& m) { m.second_moments *= 1e-3; }), HasSubstr("second_moments"));
     EXPECT_THAT(error([](VolumeMoments& m) { m.second_moments(0, 0) *= -1.0; }), HasSubstr("second_moments"));
@@ -92,12 +92,13 @@ TEST(BodyCheck, MomentsThatTheSurfaceDoesNotHaveAreRefused) {
 
 TEST(BodyCheck, SurfacesThatEncloseNothingAreRefused) {
     EXPECT_THAT(error_after([](Body& b) { b.surface = {}; }), HasSubstr("no triangle"));
-    EXPECT_THAT(error_after([](Body& b) { b.surface.vertices[0] *= 1e200; }), HasSubstr("no body's size"));
+    EXPECT_THAT(error_after([](Body& b) { b.surface.vertices[0] *= 1e200; }),
+                HasSubstr("which is too large"));
     const auto inside_out = [](Body& b) {
         for (auto& triangle : b.surface.corners) std::swap(triangle[0], triangle[1]);
         b.surface.edge_nodes.clear();
     };
-    EXPECT_THAT(error_after(inside_out), HasSubstr("not that of the surface"));
+    EXPECT_THAT(error_after(inside_out), HasSubstr("does not match the surface"));
 }
 
 TEST(BodyCheck, AxesThatAreNoneAreRefused) {

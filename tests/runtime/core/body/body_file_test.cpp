@@ -205,7 +205,8 @@ TEST(BodyFile, RewritingGivesEqualBytes) {
 }
 
 TEST(BodyFile, MissingFileIsNamed) {
-    EXPECT_THAT(error_of_file("nowhere/a.body.h5"), HasSubstr("nowhere/a.body.h5: there is no such file"));
+    EXPECT_THAT(error_of_file("nowhere/a.body.h5"),
+                HasSubstr("nowhere/a.body.h5: does not exist; check the name"));
 }
 
 TEST(BodyFile, FileCutShortIsRefusedAtEveryLength) {
@@ -373,7 +374,7 @@ TEST(BodyFile, DynamicCoefficientsOfAnEarlierFormAreRefusedWithARemedy) {
         }
     }
     const std::string error = error_of_file(folder / "a.body.h5");
-    EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
+    EXPECT_THAT(error, AllOf(HasSubstr("a.body.h5: /dynamic_coefficients has an outdated form"),
                              HasSubstr("remove the group to use the defaults")));
     EXPECT_EQ(error.find('\n'), std::string::npos);
 }
@@ -398,7 +399,7 @@ TEST(BodyFile, DynamicCoefficientsWithTermsOfBeforeAreRefusedButWhereTheyAreNone
             expect_equal(read_body_file(path), body);
         } else {
             EXPECT_THAT(error_of_file(path),
-                        AllOf(HasSubstr("a.body.h5: /dynamic_coefficients is of an earlier form"),
+                        AllOf(HasSubstr("a.body.h5: /dynamic_coefficients has an outdated form"),
                               HasSubstr("bake the body again")));
         }
     }

@@ -244,7 +244,7 @@ TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     expect_rejected(CALL(samara_add_moment, s, 0, bad), "moment");
     expect_rejected(CALL(samara_add_impulse, s, 0, bad, nullptr), "impulse");
     expect_rejected(CALL(samara_add_angular_impulse, s, 0, bad), "angular_impulse");
-    expect_rejected(CALL(samara_remove, s, 0, 2), "bodies 0 to 2 are asked for, but there are 1");
+    expect_rejected(CALL(samara_remove, s, 0, 2), "bodies 0 to 2 are requested, but there are 1");
     expect_rejected(CALL(samara_get_sizes, s, 0, 1, nullptr), "sizes");
     expect_rejected(CALL(samara_take_contacts, s, 0, 1, nullptr, 0), "contacts");
     samara_contact contact;
@@ -264,7 +264,7 @@ TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     EXPECT_EQ(state_of(simulation), before) << "a call that fails changes nothing";
     poses_at(simulation, 0.003);
     samara_fluid_load load;
-    expect_rejected(CALL(samara_get_fluid_load, s, 0, &load), "lies within one");
+    expect_rejected(CALL(samara_get_fluid_load, s, 0, &load), "is within a step");
 }
 
 }  // namespace

@@ -119,7 +119,8 @@ TEST(CModels, AReynoldsNumberForTablesThatAreNotReadIsRefused) {
     Text error;
     EXPECT_EQ(CALL(samara_simulation_add, empty_simulation().get(), body.get(), &group, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(error.text(), StartsWith("table_reynolds_number is for loads or turbulence from the table"));
+    EXPECT_THAT(error.text(),
+                StartsWith("table_reynolds_number applies only to loads or turbulence by table"));
     group.turbulence = SAMARA_TURBULENCE_TABLE;
     (void)simulation_of(body, group);
 }

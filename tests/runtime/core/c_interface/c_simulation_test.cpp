@@ -33,7 +33,7 @@ TEST(CSimulation, KindsHaveNamesOfTheirOwn) {
     Text error;
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, &first),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(error.text(), HasSubstr("'rubber' is taken"));
+    EXPECT_THAT(error.text(), HasSubstr("already has the name 'rubber'"));
     EXPECT_EQ(first, 99U);
     group.name = "other";
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, &first), SAMARA_OK);

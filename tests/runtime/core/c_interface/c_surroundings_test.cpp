@@ -232,9 +232,9 @@ TEST(CObstacle, OutOfRangeIsRefusedByName) {
         {"time", [](samara_obstacle& o) { o.keys = endless, o.key_count = 1; }},
         {"keys of obstacle 'obstacle-0' jump: from 1 s to 1.01 s",
          [](samara_obstacle& o) { o.keys = jumping, o.key_count = 2; }},
-        {"obstacle 'obstacle-0' is no sound surface",
+        {"obstacle 'obstacle-0' is not a valid surface",
          [](samara_obstacle& o) { o.triangles = far_corners, o.triangle_count = 1; }},
-        {"obstacle 'obstacle-0' is no sound surface", [](samara_obstacle& o) { o.triangle_count = 0; }},
+        {"obstacle 'obstacle-0' is not a valid surface", [](samara_obstacle& o) { o.triangle_count = 0; }},
     };
     const SimulationPointer simulation = empty_simulation();
     for (const auto& [member, change] : changes) {
@@ -257,7 +257,7 @@ TEST(CObstacle, MustComeBeforeTheBodiesWhichMustStartOutsideOfIt) {
     Text error;
     EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(error.text(), HasSubstr("'table' is taken"));
+    EXPECT_THAT(error.text(), HasSubstr("already has the name 'table'"));
     samara_body_group group = lying_group();
     group.position[2] = 0.02;
     EXPECT_EQ(CALL(samara_simulation_add, simulation.get(), body.get(), &group, nullptr),

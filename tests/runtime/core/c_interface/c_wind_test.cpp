@@ -91,7 +91,7 @@ TEST(CWind, ThatGivesNoNumberStopsTheSimulationAndAStateBringsItBack) {
     strength = std::numeric_limits<double>::quiet_NaN();
     Text error;
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 0.3), SAMARA_OUT_OF_RANGE);
-    EXPECT_THAT(error.text(), testing::HasSubstr("the wind function gave"));
+    EXPECT_THAT(error.text(), testing::HasSubstr("the wind function returned a velocity"));
     EXPECT_EQ(CALL(samara_advance_to, simulation.get(), 0.3), SAMARA_OUT_OF_RANGE);
     strength = turning;
     EXPECT_EQ(test::set_state(simulation, state, error), SAMARA_OK);

@@ -223,8 +223,7 @@ TEST(ImmersedBody, RefusesLoadsOfASurfaceThatItsBodyDoesNotHold) {
     given.body.surface_loads = test::made_up_surface_loads(given.body.surface, given.body.moments);
     EXPECT_NO_THROW((void)given.made());
     given.scene_body.turbulence = Turbulence::table;
-    EXPECT_THAT(test::error_of([&] { (void)given.made(); }),
-                HasSubstr("loads of the surface know no turbulence"));
+    EXPECT_THAT(test::error_of([&] { (void)given.made(); }), HasSubstr("surface loads have no turbulence"));
 }
 
 TEST(ImmersedBody, OfSurfaceLoadsSharesItsCoefficientsWithAllBodies) {

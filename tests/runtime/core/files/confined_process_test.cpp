@@ -157,7 +157,7 @@ TEST(ConfinedProcess, MayNotRaiseItsLimits) {
 TEST(ConfinedProcess, SendsNoMoreThanItsShare) {
     ConfinedLimits limits;
     limits.sent_bytes = 1000;
-    const auto expected = HasSubstr("sends more than 0.001 MB");
+    const auto expected = HasSubstr("returned more than 0.001 MB");
     EXPECT_THAT(error_of([](const SendBytes& send) { send(std::string(1001, 'x')); }, limits), expected);
     EXPECT_THAT(error_of(
                     [](const SendBytes& send) {
@@ -229,13 +229,13 @@ TEST(ConfinedProcess, ACrashIsOneLine) {
 }
 
 TEST(ConfinedProcess, LeavingEarlyIsAError) {
-    EXPECT_THAT(error_of([](const SendBytes&) { std::exit(0); }), HasSubstr("before it is read through"));
-    EXPECT_THAT(error_of([](const SendBytes&) { ::_exit(0); }), HasSubstr("before it is read through"));
+    EXPECT_THAT(error_of([](const SendBytes&) { std::exit(0); }), HasSubstr("before the end of the file"));
+    EXPECT_THAT(error_of([](const SendBytes&) { ::_exit(0); }), HasSubstr("before the end of the file"));
     EXPECT_THAT(error_of([](const SendBytes& send) {
                     send("part");
                     std::exit(0);
                 }),
-                HasSubstr("before it is read through"));
+                HasSubstr("before the end of the file"));
 }
 
 TEST(ConfinedProcess, HasAnEnd) {
@@ -247,7 +247,7 @@ TEST(ConfinedProcess, HasAnEnd) {
                         }
                     },
                     limits),
-                HasSubstr("takes more than 1 s of computing"));
+                HasSubstr("needs more than 1 s of CPU time; simplify it"));
     limits.idle_seconds = 0.2;
     EXPECT_THAT(
         error_of([](const SendBytes&) { std::this_thread::sleep_for(std::chrono::hours(1)); }, limits),

@@ -51,7 +51,7 @@ TEST_F(FileDigest, SeesWhatFletcher32DoesNot) {
     std::string damaged = bytes_;
     damaged[place] = damaged[place + 1] = '\xff';
     EXPECT_THAT(error_of_bytes(damaged),
-                HasSubstr("b.h5: is damaged (its digest is not that of its content)"));
+                HasSubstr("b.h5: is damaged (its digest does not match its content)"));
     // Without the digest the change passes.
     replace_file_with(folder_ / "c.h5", damaged.substr(0, damaged.size() - 48));
     const Hdf5Reader reader(folder_ / "c.h5");
@@ -73,7 +73,7 @@ TEST_F(FileDigest, EveryLengthButThatOfTheContentIsRefused) {
         if (bytes_.size() - cut == content) continue;
         EXPECT_THAT(error_of_bytes(bytes_.substr(0, bytes_.size() - cut)), HasSubstr("b.h5")) << cut;
     }
-    EXPECT_THAT(error_of_bytes(bytes_ + std::string(4096, '\0')), HasSubstr("goes on behind its content"));
+    EXPECT_THAT(error_of_bytes(bytes_ + std::string(4096, '\0')), HasSubstr("has bytes after its content"));
 }
 
 TEST_F(FileDigest, IsGoneWhenAnotherProgramChangesTheFile) {

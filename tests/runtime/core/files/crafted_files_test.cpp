@@ -63,25 +63,25 @@ class CraftedBody : public testing::Test {
 
 TEST_F(CraftedBody, AnAttributeOfManyNumbersIsRefusedEverywhere) {
     put_attribute(file_, "/moments", "volume", H5::PredType::IEEE_F64LE, 64);
-    expect_rejection("the attribute volume of /moments is not one value");
+    expect_rejection("the attribute volume of /moments is not a single value");
     write_body_file(file_, test::full_body());
     put_attribute(file_, "/tables", "subdivisions", H5::PredType::STD_I64LE, 4000);
-    expect_rejection("the attribute subdivisions of /tables is not one value");
+    expect_rejection("the attribute subdivisions of /tables is not a single value");
     write_body_file(file_, test::full_body());
     put_attribute(file_, "/", "name", H5::StrType(H5::PredType::C_S1, 1000), 8);
-    expect_rejection("the attribute name of / is not one value");
+    expect_rejection("the attribute name of / is not a single value");
 }
 
 TEST_F(CraftedBody, RowsThat64BitsDoNotCountAreRefusedEverywhere) {
     put_dataset(file_, "/surface/corners", H5::PredType::STD_I32LE, {6148914691236517206, 3},
                 in_chunks({1, 3}));
-    expect_rejection("/surface/corners claims more values than can be counted");
+    expect_rejection("/surface/corners declares too many values");
 }
 
 TEST_F(CraftedBody, TablesThatClaimGigabytesAreRefusedEverywhere) {
     put_dataset(file_, "/tables/force", H5::PredType::IEEE_F64LE, {1'000'000, 31, 31, 3},
                 in_chunks({1, 31, 31, 3}));
-    expect_rejection("/tables/force claims values that are not stored");
+    expect_rejection("/tables/force declares values that are not stored");
     // The other case: few bytes for the numbers, and a map that multiplies them.
     Body body = test::full_body();
     body.tables->reynolds_numbers.resize(20'000);
@@ -107,21 +107,21 @@ TEST_F(CraftedBody, AnotherFileIsNotReadThroughIt) {
     (void)folder_.file("secret", secret);
     put_dataset(file_, "/tables/provenance", H5::PredType::STD_U8LE, {secret.size()},
                 test::in_other_file(folder_ / "secret", secret.size()));
-    expect_rejection("/tables/provenance is kept in other files");
+    expect_rejection("/tables/provenance is stored in other files");
 }
 
 TEST_F(CraftedBody, AChunkShorterThanItsValuesIsRefusedEverywhere) {
     constexpr std::size_t whole = 75 * 8 + 4;
     ASSERT_TRUE(test::put_in_chunks(file_, "/tables/force", {.chunk = {1, 5, 5, 3}},
                                     {{{0, 0, 0, 0}, 16, 1}, {{1, 0, 0, 0}, 2 * whole - 16, 1}}));
-    expect_rejection("/tables/force has a chunk of another size than its values take");
+    expect_rejection("/tables/force has a chunk whose size does not match its values");
 }
 
 TEST_F(CraftedBody, JsonThatNestsTooDeepIsRefusedEverywhere) {
     for (const char* name : {"/tables/provenance", "/tables/plan", "/tables/left_out"}) {
         write_body_file(file_, test::full_body());
         test::put_text(file_, name, "[" + std::string(500'000, '[') + std::string(500'000, ']') + "]");
-        expect_rejection(std::string(name) + " nests more than 100 lists and objects");
+        expect_rejection(std::string(name) + " nests lists and objects more than 100 deep");
     }
 }
 
@@ -158,17 +158,17 @@ TEST_F(CraftedMotion, AnotherFileIsNeitherPrintedNorWaitedFor) {
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
     for (const char* other : {"secret", "pipe"}) {
         put_dataset(file_, "/scene", H5::PredType::STD_U8LE, {26}, test::in_other_file(folder_ / other, 26));
-        expect_rejection("/scene is kept in other files");
+        expect_rejection("/scene is stored in other files");
         test::put_link(file_, "/scene", "/scene", folder_ / other);
-        expect_rejection("/scene is a link to elsewhere");
+        expect_rejection("/scene is an external link");
     }
 }
 
 TEST_F(CraftedMotion, AttributesOfManyNumbersAreRefusedEverywhere) {
     put_attribute(file_, "/", "seed", H5::PredType::STD_U64LE, 64);
-    expect_rejection("the attribute seed of / is not one value");
+    expect_rejection("the attribute seed of / is not a single value");
     put_attribute(file_, "/", "frame_rate", H5::PredType::IEEE_F64LE, 64);
-    expect_rejection("the attribute frame_rate of / is not one value");
+    expect_rejection("the attribute frame_rate of / is not a single value");
 }
 
 TEST_F(CraftedMotion, AChunkOfAnotherSizeThanItsValuesIsRefusedEverywhere) {
@@ -178,14 +178,14 @@ TEST_F(CraftedMotion, AChunkOfAnotherSizeThanItsValuesIsRefusedEverywhere) {
         ASSERT_TRUE(
             test::put_in_chunks(file_, name, {.chunk = {1, 31, 1, 3}},
                                 {{{0, 0, 0, 0}, bytes, mask}, {{0, 31, 0, 0}, 2 * whole - bytes, 1}}));
-        expect_rejection(name + " has a chunk of another size than its values take");
+        expect_rejection(name + " has a chunk whose size does not match its values");
         SetUp();
     }
 }
 
 TEST_F(CraftedMotion, PosesThatAreNotStoredAreRefusedEverywhere) {
     put_dataset(file_, "/time", H5::PredType::IEEE_F64LE, {1'000'000'000}, in_chunks({1000}));
-    expect_rejection("/time claims values that are not stored");
+    expect_rejection("/time declares values that are not stored");
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ TEST_F(FoundShareFolder, IsTheOneThatTheEnvironmentNames) {
     EXPECT_EQ(found("source"), folder_.path());
     EXPECT_THAT(error("farm"), HasSubstr("which holds no farm; unset it, or name the folder of the parts"));
     ::setenv(variable, "nowhere", 1);
-    EXPECT_THAT(error(""), HasSubstr("SAMARA_PARTS_OF_THIS_TEST names nowhere, which is no folder; unset"));
+    EXPECT_THAT(error(""),
+                HasSubstr("SAMARA_PARTS_OF_THIS_TEST names nowhere, which is not a folder; unset"));
     ::setenv(variable, "", 1);
     EXPECT_EQ(found(""), source_);
 }

@@ -20,14 +20,14 @@ TEST(InputFile, SaysWhatIsWrongWithAPathAndNeverThrows) {
     const TemporaryFolder folder;
     EXPECT_EQ(reading_error(folder.file("a.h5", "text")), "");
     EXPECT_EQ(reading_error("/dev/null"), "is a pipe, socket or device; give a file");
-    EXPECT_EQ(reading_error(folder / "b.h5"), "there is no such file");
+    EXPECT_EQ(reading_error(folder / "b.h5"), "does not exist");
     EXPECT_EQ(reading_error(folder.path()), "is a folder; give a file");
     EXPECT_EQ(reading_error(folder / "a.h5/b.h5"), "cannot be read: Not a directory");
     EXPECT_EQ(reading_error(std::string(5000, 'a')), "cannot be read: File name too long");
     std::filesystem::create_symlink("loop", folder / "loop");
     EXPECT_EQ(reading_error(folder / "loop"), "cannot be read: Too many levels of symbolic links");
     std::filesystem::create_symlink("gone", folder / "dangling");
-    EXPECT_EQ(reading_error(folder / "dangling"), "there is no such file");
+    EXPECT_EQ(reading_error(folder / "dangling"), "does not exist");
 }
 
 TEST(InputFile, IsReadWholeOrRefused) {
@@ -37,11 +37,11 @@ TEST(InputFile, IsReadWholeOrRefused) {
     const auto refusal = [](const std::filesystem::path& file, std::size_t most) {
         return test::error_of([&] { (void)read_at_most(file, most); });
     };
-    EXPECT_THAT(refusal(folder / "text", text.size() - 1), HasSubstr("text: holds more than 99999 bytes"));
+    EXPECT_THAT(refusal(folder / "text", text.size() - 1), HasSubstr("text: has more than 99999 bytes"));
     EXPECT_THAT(refusal("/dev/zero", 1'000'000), HasSubstr("/dev/zero: is a pipe, socket or device"));
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_THAT(refusal(folder / "pipe", 10), HasSubstr("pipe: is a pipe, socket or device; give a file"));
-    EXPECT_THAT(refusal(folder / "none", 10), HasSubstr("none: there is no such file"));
+    EXPECT_THAT(refusal(folder / "none", 10), HasSubstr("none: does not exist; check the name"));
     EXPECT_THAT(refusal(folder.path(), 10), HasSubstr(": is a folder; give a file"));
     EXPECT_THAT(test::error_of([&] { (void)read_bytes(folder.path()); }),
                 HasSubstr("is a folder; give a file"));

@@ -488,7 +488,7 @@ TEST(FluidLoads, PushedWithTheAccelerationBeforeALightBodyDiverges) {
 TEST(FluidLoads, AreThoseOfAWholeStep) {
     Simulation simulation = floating(ideal());
     simulation.advance_to(0.003);
-    EXPECT_THAT(test::error_of([&] { return simulation.fluid_load(0); }), HasSubstr("lies within one"));
+    EXPECT_THAT(test::error_of([&] { return simulation.fluid_load(0); }), HasSubstr("is within a step;"));
 }
 
 /// Whether each block of angular and linear parts is the same.

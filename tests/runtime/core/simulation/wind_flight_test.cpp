@@ -156,7 +156,7 @@ TEST(WindFlight, AWindFunctionThatGivesNoNumberStopsTheFlight) {
         FAIL() << "nothing was thrown";
     } catch (const SimulationError& error) {
         EXPECT_EQ(error.reason(), SimulationError::Reason::out_of_range);
-        EXPECT_THAT(error.what(), HasSubstr("the wind function gave"));
+        EXPECT_THAT(error.what(), HasSubstr("the wind function returned a velocity"));
     }
     EXPECT_THROW(simulation.advance_to(0.6), SimulationError);
 }

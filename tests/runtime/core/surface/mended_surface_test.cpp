@@ -105,10 +105,12 @@ TEST(MendedSurface, SaysWhatIsLostFarFromTheOrigin) {
         return cube;
     };
     const std::string error = test::error_of([&] { mended(far_off(1e6, true)); });
-    EXPECT_THAT(error, HasSubstr("lies 1e+06 from the origin, where its numbers of 32 bits are 0.12 apart"));
-    EXPECT_THAT(error, HasSubstr("move it to the origin before it is exported"));
+    EXPECT_THAT(
+        error,
+        HasSubstr("lies 1e+06 from the origin, where coordinates of 32 bits have a resolution of 0.12"));
+    EXPECT_THAT(error, HasSubstr("move it to the origin before you export it"));
     EXPECT_NO_THROW(mended(far_off(1e2, true)));
-    EXPECT_NO_THROW(mended(far_off(1e6, false))) << "numbers of 64 bits";
+    EXPECT_NO_THROW(mended(far_off(1e6, false))) << "coordinates of 64 bits";
 }
 
 }  // namespace

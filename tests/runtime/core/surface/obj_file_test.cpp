@@ -82,8 +82,8 @@ TEST(ObjFile, ReadsWhatProgramsPutAroundTheNumbers) {
     EXPECT_NEAR(volume_of(vertices + "F 1 4 3 2 # the bottom\nf 5 6 7 8# the top\n" + faces.substr(20)), 1.0,
                 1e-15);
     EXPECT_NEAR(volume_of("V\t0 0 1e-400\n" + vertices.substr(8) + faces), 1.0, 1e-15);
-    EXPECT_EQ(error_of(vertices + "f 1 4 \\\n3 2\nf 5 6 7 9\n"), "line 11: a face names vertex '9' of 8");
-    EXPECT_EQ(error_of(vertices + "f 1 4 \\\n3 9\n"), "line 9: a face names vertex '9' of 8");
+    EXPECT_EQ(error_of(vertices + "f 1 4 \\\n3 2\nf 5 6 7 9\n"), "line 11: a face refers to vertex '9' of 8");
+    EXPECT_EQ(error_of(vertices + "f 1 4 \\\n3 9\n"), "line 9: a face refers to vertex '9' of 8");
     using namespace std::string_literals;
     EXPECT_THAT(error_of("\xFF\xFEv\0 \0"s), ::testing::HasSubstr("UTF-16 or UTF-32; save it as UTF-8"));
 }
@@ -93,13 +93,13 @@ TEST(ObjFile, NamesTheLineThatIsWrong) {
     EXPECT_EQ(error_of("v 0 0 1e999\n"), "line 1: 'v' needs three numbers, not '1e999'");
     EXPECT_EQ(error_of("v 0 0\n"), "line 1: 'v' needs three numbers, not ''");
     EXPECT_EQ(error_of("v 0 0 0x\n"), "line 1: 'v' needs three numbers, not '0x'");
-    EXPECT_EQ(error_of(vertices + "f 1 2 9\n"), "line 9: a face names vertex '9' of 8");
-    EXPECT_EQ(error_of(vertices + "\r\nf 1 2 -9\n"), "line 10: a face names vertex '-9' of 8");
-    EXPECT_EQ(error_of(vertices + "f 0 1 2\n"), "line 9: a face names vertex '0' of 8");
+    EXPECT_EQ(error_of(vertices + "f 1 2 9\n"), "line 9: a face refers to vertex '9' of 8");
+    EXPECT_EQ(error_of(vertices + "\r\nf 1 2 -9\n"), "line 10: a face refers to vertex '-9' of 8");
+    EXPECT_EQ(error_of(vertices + "f 0 1 2\n"), "line 9: a face refers to vertex '0' of 8");
     EXPECT_EQ(error_of(vertices + "f 1 2 99999999999999999999\n"),
-              "line 9: a face names vertex '99999999999999999999' of 8");
-    EXPECT_EQ(error_of(vertices + "f 1 two 3\n"), "line 9: a face names vertex 'two' of 8");
-    EXPECT_EQ(error_of(vertices + "f 1 2\n"), "line 9: a face has three or more corners, not 2");
+              "line 9: a face refers to vertex '99999999999999999999' of 8");
+    EXPECT_EQ(error_of(vertices + "f 1 two 3\n"), "line 9: a face refers to vertex 'two' of 8");
+    EXPECT_EQ(error_of(vertices + "f 1 2\n"), "line 9: a face must have three or more corners, not 2");
 }
 
 TEST(ObjFile, CutsPolygonsOfThousandsOfCornersAtOnce) {
@@ -115,10 +115,8 @@ TEST(ObjFile, CutsPolygonsOfThousandsOfCornersAtOnce) {
 }
 
 TEST(ObjFile, RefusesAFaceOfMoreCornersAndNamesItsLine) {
-    EXPECT_EQ(
-        error_of(prism(10'001, [](std::size_t) { return 1.0; })),
-        "line 30004: a face of 10001 corners, where 10000 are the most; cut it into triangles where the "
-        "file is made");
+    EXPECT_EQ(error_of(prism(10'001, [](std::size_t) { return 1.0; })),
+              "line 30004: a face has 10001 corners, more than 10000; export the file with triangles");
 }
 
 std::vector<std::array<std::int32_t, 3>> cut(const std::vector<Vector3d>& corners) {

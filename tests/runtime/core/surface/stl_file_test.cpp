@@ -60,14 +60,14 @@ TEST(StlFile, ReadsTextHoweverItsLinesEndAndItsWordsAreSpelt) {
 
 TEST(StlFile, SaysWhatATextIsThatIsNone) {
     EXPECT_THAT(error_of("v 0 0 0\nv 1 0 0\n" + std::string(200, '#')),
-                HasSubstr("is no STL file: one in text begins"));
+                HasSubstr("is not an STL file: a text file begins"));
     using namespace std::string_literals;
     EXPECT_THAT(error_of("\xFF\xFEs\0o\0l\0i\0d\0"s), HasSubstr("UTF-16 or UTF-32; save it as UTF-8"));
     EXPECT_THAT(error_of(tetrahedron() + "facet\nouter loop\nvertex 0 0 x\n"),
                 HasSubstr("line 33: 'vertex' needs three numbers, not 'x'"));
-    EXPECT_THAT(error_of(tetrahedron() + "facet\nouter loop\nvertex 0 0 0\n"), HasSubstr("is cut short"));
+    EXPECT_THAT(error_of(tetrahedron() + "facet\nouter loop\nvertex 0 0 0\n"), HasSubstr("is truncated"));
     EXPECT_THAT(error_of(std::string(80, 'a') + std::string("\x02\0\0\0", 4) + std::string(50, '\0')),
-                HasSubstr("134 bytes, where 2 triangles take 184"));
+                HasSubstr("134 bytes, but 2 triangles need 184"));
 }
 
 }  // namespace

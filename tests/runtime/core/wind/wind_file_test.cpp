@@ -72,7 +72,7 @@ TEST_F(WindFileTest, DamageIsRefused) {
     body.name = "ball";
     body.source = "invented";
     write_body_file(file, body);
-    EXPECT_THAT(error_of([&] { read_wind_file(file); }), HasSubstr("is no wind file"));
+    EXPECT_THAT(error_of([&] { read_wind_file(file); }), HasSubstr("is not a wind file"));
 }
 
 TEST_F(WindFileTest, WhatBreaksARuleIsRefused) {
