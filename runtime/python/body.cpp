@@ -63,9 +63,12 @@ auto table_of(Member member, const std::vector<LoadEntry> LoadTables::*entries =
 }  // namespace
 
 void bind_body(py::module_& module) {
-    class_of<Body, SharedBody>(module, "Body", "The content of a body file. Arrays are read-only views.")
-        .def_static("read", &read, py::arg("file"), "Reads a body file (.body.h5).")
-        .def_readonly("name", &Body::name, "The name in the file or in the scene.")
+    class_of<Body, SharedBody>(
+        module, "Body", "The content of a body file. Arrays are read-only views, which keep the body alive.")
+        .def_static("read", &read, py::arg("file"),
+                    "Reads a body file (.body.h5). Raises FileError where it cannot be read, InputError "
+                    "where its content is wrong.")
+        .def_readonly("name", &Body::name, "Name of the body: that of its file or of its scene.")
         .def_readonly("source", &Body::source, "How the surface was made, in one line.")
         .def_property_readonly(
             "vertices",
@@ -73,43 +76,44 @@ void bind_body(py::module_& module) {
                 const auto& surface = self.cast<const Body&>().surface;
                 return view(surface.vertices.data()->data(), {length(surface.vertices.size()), 3}, self);
             },
-            "Vertices: m, shape axes, shape (n, 3).")
+            "Vertices of the surface in m, shape axes, shape (n, 3).")
         .def_property_readonly(
             "triangles",
             [](const py::object& self) {
                 const auto& surface = self.cast<const Body&>().surface;
                 return view(surface.corners.data()->data(), {length(surface.corners.size()), 3}, self);
             },
-            "Triangles: indices of vertices, counterclockwise seen from outside, shape (m, 3).")
+            "Three vertex numbers for each triangle, anticlockwise seen from outside, shape (m, 3).")
         .def_property_readonly(
-            "volume", [](const Body& body) { return body.moments.volume; }, "m^3")
+            "volume", [](const Body& body) { return body.moments.volume; }, "Volume in m^3.")
         .def_property_readonly(
-            "surface_area", [](const Body& body) { return body.moments.surface_area; }, "m^2")
+            "surface_area", [](const Body& body) { return body.moments.surface_area; },
+            "Surface area in m^2.")
         .def_property_readonly(
             "centroid", [](const Body& body) { return body.moments.centroid; },
-            "Centroid of the volume: m, shape axes, shape (3,).")
+            "Centroid of the volume in m, shape axes, shape (3,).")
         .def_property_readonly(
             "mass",
             [](const Body& body) -> std::optional<double> {
                 if (!body.mass) return {};
                 return mass_properties(body, *body.mass).mass;
             },
-            "Default mass in kg, or None.")
+            "Mass in kg that the file gives, used where a scene gives none; or None.")
         .def_property_readonly(
             "kirchhoff_tensor",
             [](const Body& body) -> std::optional<Matrix6d> {
                 if (!body.kirchhoff) return {};
                 return body.kirchhoff->matrix;
             },
-            "The added mass for a fluid of 1 kg/m^3, shape (6, 6): order omega, v; about the centroid; shape "
-            "axes. Or None.")
+            "Added mass for a fluid of 1 kg/m^3, shape (6, 6): angular before linear velocity, about the "
+            "centroid, shape axes; or None.")
         .def_property_readonly(
             "kirchhoff_error",
             [](const Body& body) -> std::optional<double> {
                 if (!body.kirchhoff) return {};
                 return body.kirchhoff->error_estimate;
             },
-            "Estimated relative error of the tensor, or None.")
+            "Estimated relative error of the Kirchhoff tensor, or None.")
         .def_property_readonly(
             "quality", [](const Body& body) { return body.tables ? body.tables->quality : std::string(); },
             "Quality of the bake: smoke, preview, standard or high; empty without tables.")
@@ -120,19 +124,21 @@ void bind_body(py::module_& module) {
                 if (!tables) return py::none();
                 return view(tables->reynolds_numbers.data(), {length(tables->reynolds_numbers.size())}, self);
             },
-            "Reynolds numbers of the tables, ascending, shape (r,), or None.")
+            "Reynolds numbers of the tables, ascending, shape (r,); None without tables.")
+        .def_property_readonly("force_table", table_of(&LoadEntry::force),
+                               "Force coefficients F / (rho U^2 A / 2) over the octahedral map of "
+                               "directions, body axes, shape (r, n, n, 3); None without tables.")
         .def_property_readonly(
-            "force_table", table_of(&LoadEntry::force),
-            "F / (rho U^2 A / 2) over the octahedral map, body axes, shape (r, n, n, 3), or None.")
-        .def_property_readonly("moment_table", table_of(&LoadEntry::moment),
-                               "M / (rho U^2 A L / 2), in the layout of force_table.")
+            "moment_table", table_of(&LoadEntry::moment),
+            "Moment coefficients M / (rho U^2 A L / 2), in the layout of force_table; None without tables.")
         .def_property_readonly("force_error_table", table_of(&LoadEntry::force, &LoadTables::errors),
-                               "Standard errors of force_table, or None.")
-        .def_property_readonly("turbulent_kinetic_energy_table",
-                               table_of(&LoadEntry::turbulent_kinetic_energy),
-                               "k / U^2 over the octahedral map, shape (r, n, n), or None.")
-        .def_property_readonly("dissipation_rate_table", table_of(&LoadEntry::dissipation_rate),
-                               "epsilon L / U^3, in the layout of turbulent_kinetic_energy_table.")
+                               "Standard errors of force_table, in its layout, or None.")
+        .def_property_readonly(
+            "turbulent_kinetic_energy_table", table_of(&LoadEntry::turbulent_kinetic_energy),
+            "k / U^2 over the octahedral map of directions, shape (r, n, n); None without tables.")
+        .def_property_readonly(
+            "dissipation_rate_table", table_of(&LoadEntry::dissipation_rate),
+            "epsilon L / U^3, in the layout of turbulent_kinetic_energy_table; None without tables.")
         .def(
             "loads",
             [](const Body& body, const py::object& given, double reynolds_number) {
@@ -152,14 +158,15 @@ void bind_body(py::module_& module) {
                 return std::make_pair(entry.force, entry.moment);
             },
             py::arg("direction"), py::arg("reynolds_number"),
-            "The tables' force and moment coefficients for motion in a direction (shape axes) relative to "
-            "the fluid.")
+            "Returns the tables' force and moment coefficients, each of shape (3,), for a body that moves in "
+            "`direction` relative to the fluid: three numbers in shape axes, of any length but 0. Beyond the "
+            "tables' range, the nearest Reynolds number counts. Raises InputError for a body without tables.")
         .def(
             "_picture",
             [](const Body& body, const std::string& picture) {
                 return as_python(on_input([&] { return body_picture(picture, body); }));
             },
-            py::arg("picture"), "The data that samara.plot draws.")
+            py::arg("picture"), "Returns the data that samara.plot draws.")
         .def("__repr__", [](const Body& body) {
             return fmt::format("<samara.Body {}: {} triangles{}>", body.name, body.surface.triangle_count(),
                                body.tables ? ", tables of quality " + body.tables->quality : "");

@@ -25,11 +25,12 @@ void set_error(const py::handle& type, const Error& caught) {
 void bind_errors(py::module_& module) {
     error = exception(
         module, "Error", py::make_tuple(py::handle(PyExc_RuntimeError)),
-        "An error in a file, a scene or an argument. Its text is one line with the place and the remedy.");
-    input_error = exception(module, "InputError", py::make_tuple(error, py::handle(PyExc_ValueError)),
-                            "An Error in the input: a scene, a file's content or an argument.");
+        "The base of all errors of this module. Its text is one line that names the place and the remedy.");
+    input_error =
+        exception(module, "InputError", py::make_tuple(error, py::handle(PyExc_ValueError)),
+                  "An error in an input: a scene, the content of a file or an argument. A ValueError too.");
     file_error = exception(module, "FileError", py::make_tuple(error, py::handle(PyExc_OSError)),
-                           "An Error for a file that cannot be read or written.");
+                           "An error of a file that cannot be read or written. An OSError too.");
     // NOLINTNEXTLINE(performance-unnecessary-value-param): so pybind11 calls it
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {

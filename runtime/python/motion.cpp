@@ -260,29 +260,30 @@ std::string page(const FlownMotion& motion, int run) {
 
 void bind_body_motion(py::module_& module) {
     class_of<BodyOfMotion>(module, "BodyMotion",
-                           "A body of a motion with all copies, runs and frames. Arrays are read-only views; "
-                           "they keep the motion alive.")
+                           "A body of a motion with all its runs, frames and copies. Arrays are read-only "
+                           "views, which keep the motion alive.")
         .def_property_readonly(
-            "name", [](const BodyOfMotion& body) { return body.body().name; }, "The name in the scene.")
+            "name", [](const BodyOfMotion& body) { return body.body().name; },
+            "Name of the body in the scene.")
         .def_property_readonly(
             "copies", [](const BodyOfMotion& body) { return body.body().copies; }, "Number of copies.")
         .def_property_readonly(
             "models", [](const BodyOfMotion& body) { return body.body().models; },
-            "The loads, turbulence and defaults that were used, as text.")
+            "The loads, the turbulence and the defaults that were used, in words.")
         .def_property_readonly(
             "center_of_mass", [](const BodyOfMotion& body) { return body.body().center_of_mass; },
-            "m, shape axes, shape (3,).")
+            "Centre of mass in m, shape axes, shape (3,).")
         .def_property_readonly(
             "position", &poses<PoseMember::position>,
-            "Position of the centre of mass: m, world axes (z up), shape (runs, frames, copies, 3).")
+            "Positions of the centre of mass in m, world axes (z up), shape (runs, frames, copies, 3).")
         .def_property_readonly("orientation", &poses<PoseMember::orientation>,
-                               "Rotation from shape to world axes: unit quaternions x, y, z, w (as in "
-                               "scipy's Rotation), shape (runs, frames, copies, 4).")
+                               "Unit quaternions x, y, z, w that rotate from shape to world axes, as scipy's "
+                               "Rotation has them, shape (runs, frames, copies, 4).")
         .def_property_readonly(
             "velocity", &poses<PoseMember::velocity>,
-            "Velocity of the centre of mass: m/s, world axes, shape (runs, frames, copies, 3).")
+            "Velocities of the centre of mass in m/s, world axes, shape (runs, frames, copies, 3).")
         .def_property_readonly("angular_velocity", &poses<PoseMember::angular_velocity>,
-                               "Angular velocity: rad/s, world axes, shape (runs, frames, copies, 3).")
+                               "Angular velocities in rad/s, world axes, shape (runs, frames, copies, 3).")
         .def_property_readonly(
             "sizes",
             [](const py::object& self) -> py::object {
@@ -291,29 +292,29 @@ void bind_body_motion(py::module_& module) {
                 if (sizes.empty()) return py::none();
                 return view(sizes.data(), {body.motion->runs, body.body().copies}, self);
             },
-            "Sizes of the copies relative to the vertices, shape (runs, copies); None if all are 1.")
+            "Sizes of the copies relative to the vertices, shape (runs, copies); None where all are 1.")
         .def_property_readonly(
             "vertices",
             [](const py::object& self) {
                 const Surface& surface = self.cast<const BodyOfMotion&>().body().surface;
                 return view(surface.vertices.data()->data(), {length(surface.vertices.size()), 3}, self);
             },
-            "m, shape axes, shape (n, 3).")
+            "Vertices of the surface in m, shape axes, shape (n, 3).")
         .def_property_readonly(
             "triangles",
             [](const py::object& self) {
                 const Surface& surface = self.cast<const BodyOfMotion&>().body().surface;
                 return view(surface.corners.data()->data(), {length(surface.corners.size()), 3}, self);
             },
-            "Triangles: indices of vertices, counterclockwise seen from outside, shape (m, 3).")
+            "Three vertex numbers for each triangle, anticlockwise seen from outside, shape (m, 3).")
         .def("measure", &measured, py::arg("run") = 0, py::arg("copy") = 0, py::arg("window") = py::none(),
-             "The metrics of one fall as a dict in SI units and radians: descent_speed, frequency, "
-             "inclination_amplitude, "
-             "rms_angular_speed, regime, ... over `window`, (begin, end) in s; by default the last two "
-             "thirds of the fall.")
+             "Returns the metrics of one fall as a dict, in SI units and radians: descent_speed, frequency, "
+             "inclination_amplitude, rms_angular_speed, regime and others. `window`: (begin, end) in s; "
+             "None: the last two thirds of the fall. Raises IndexError for a run or copy that does not "
+             "exist, InputError for a window that does not fit.")
         .def("ensemble", &ensemble,
-             "The metrics of all runs and copies together: means, deviations, standard errors, regimes, "
-             "path_spread, landing.")
+             "Returns the metrics of all runs and copies together as a dict: means, deviations, standard "
+             "errors, regimes, path_spread, landing.")
         .def("__repr__", [](const BodyOfMotion& body) {
             return fmt::format("<samara.BodyMotion {}: {} runs, {} frames, {} copies>", body.body().name,
                                body.motion->runs, body.motion->frames(), body.body().copies);
@@ -324,24 +325,29 @@ void bind_body_motion(py::module_& module) {
 
 void bind_motion(py::module_& module) {
     bind_body_motion(module);
-    class_of<FlownMotion>(
-        module, "Motion",
-        "A simulated motion: poses at equal intervals, in runs that differ only in their noise.")
-        .def_static("read", &read, py::arg("file"), "Reads a motion file (.h5).")
-        .def("write", &write, py::arg("file"), "Writes a motion file (.h5) atomically.")
+    class_of<FlownMotion>(module, "Motion",
+                          "Poses of bodies at evenly spaced times, in runs that differ by their noise alone.")
+        .def_static("read", &read, py::arg("file"),
+                    "Reads a motion file (.h5). Raises FileError where it cannot be read, InputError where "
+                    "its content is wrong.")
+        .def("write", &write, py::arg("file"),
+             "Writes a motion file (.h5), whole or not at all. Raises FileError where it cannot be written.")
         .def("export", &export_to, py::arg("file"), py::arg("run") = 0,
-             "Writes one run for other programs, in the format of the name's ending: .glb, .usda, .chan, "
-             ".csv, .html.")
-        .def("page", &page, py::arg("run") = 0, "The page (.html) that plays a run, as a string.")
+             "Writes one run for other programs; the ending of the name chooses the format: .glb, .usda, "
+             ".chan, .csv or .html. Raises InputError for another ending, FileError where the file cannot be "
+             "written, IndexError for a run that does not exist.")
+        .def("page", &page, py::arg("run") = 0,
+             "Returns the page (.html) that plays a run, as text. Raises IndexError for a run that does not "
+             "exist.")
         .def("_picture", &picture_of_motion, py::arg("picture"), py::arg("body"), py::arg("run"),
-             py::arg("copy"), "The data that samara.plot draws for a body.")
+             py::arg("copy"), "Returns the data that samara.plot draws for a body.")
         .def_property_readonly(
             "times",
             [](const py::object& self) {
                 const Motion& motion = *self.cast<const FlownMotion&>().motion;
                 return view(motion.times.data(), {length(motion.times.size())}, self);
             },
-            "Times of the frames: s, shape (frames,).")
+            "Times of the frames in s, shape (frames,).")
         .def_property_readonly(
             "runs", [](const FlownMotion& motion) { return motion.motion->runs; }, "Number of runs.")
         .def_property_readonly(
@@ -349,13 +355,14 @@ void bind_motion(py::module_& module) {
             "Frames per second.")
         .def_property_readonly(
             "seed", [](const FlownMotion& motion) { return motion.motion->seed; },
-            "Seed of the noise and the starts.")
+            "Seed of the noise and of the spread of starts.")
         .def_property_readonly(
             "scene_text", [](const FlownMotion& motion) { return motion.motion->scene_text; },
-            "The text of the scene.")
+            "The scene that was simulated, as text.")
         .def_property_readonly("report", &report_of,
-                               "For a motion simulated in this process: steps, seconds, highest Reynolds "
-                               "numbers, ...; otherwise None.")
+                               "A dict for a motion that was simulated in this process, otherwise None: "
+                               "steps, implicit_steps, most_substeps, steps_at_limit, seconds, and in bodies "
+                               "for each name highest_reynolds_number and share_below_table.")
         .def_property_readonly(
             "bodies",
             [](const FlownMotion& motion) {
@@ -365,24 +372,35 @@ void bind_motion(py::module_& module) {
                 return bodies;
             },
             "The bodies, in the scene's order.")
-        .def("__getitem__", &body_named, py::arg("name"), "The body of that name.")
-        .def("__len__", [](const FlownMotion& motion) { return motion.motion->bodies.size(); })
+        .def("__getitem__", &body_named, py::arg("name"),
+             "Returns the body of that name. Raises KeyError for an unknown name.")
+        .def(
+            "__len__", [](const FlownMotion& motion) { return motion.motion->bodies.size(); },
+            "Returns the number of bodies.")
         .def("__repr__", [](const FlownMotion& motion) {
             return fmt::format("<samara.Motion of {} s: {}; {} runs, {} frames>",
                                motion.motion->times.back() - motion.motion->times.front(),
                                names_of(*motion.motion), motion.motion->runs, motion.motion->frames());
         });
-    module.def("fly", &fly, py::arg("scene"), py::kw_only(), py::arg("runs"), py::arg("seed"),
-               py::arg("step"), py::arg("threads"), py::arg("bodies"), py::arg("progress"));
+    module.def(
+        "fly", &fly, py::arg("scene"), py::kw_only(), py::arg("runs"), py::arg("seed"), py::arg("step"),
+        py::arg("threads"), py::arg("bodies"), py::arg("progress"),
+        "Simulates a Scene and returns its Motion: samara.simulate() calls it, and gives its arguments their "
+        "defaults. `seed` and `step` (s): None for the scene's. `threads`: 0 for all cores; the motion is "
+        "the same for any number. `bodies`: a folder of baked bodies, NAME.body.h5 for each body of the "
+        "scene, or ''. `progress`: called with (done, total), or None. Raises InputError, FileError, and "
+        "Error where a body's motion leaves the range of numbers.");
     module.def("compare", &comparison, py::arg("motion"), py::arg("reference"), py::kw_only(),
                py::arg("body") = py::none(), py::arg("window") = py::none(), py::arg("progress") = py::none(),
-               "Compares a motion with a reference, such as a fall by full CFD; each is a Motion or a file. "
-               "Returns the dict that 'samara compare --json' prints (docs/reference/output.md): `agrees`, "
-               "`certain`, and each metric of both with its standard error, the difference and the verdict. "
-               "`window`: (begin, end) in s after the release.");
+               "Compares a motion with a reference, such as a fall by full CFD; each is a Motion or a motion "
+               "file. Returns a dict, as 'samara compare --json' prints it (docs/reference/output.md): "
+               "`agrees`, `certain`, and each metric of both with its standard error, their difference and "
+               "the verdict. `body`: its name, where a motion has several. `window`: (begin, end) in s after "
+               "the release. `progress`: called with (done, total). Raises InputError for motions that "
+               "cannot be compared, FileError where a file cannot be read.");
     module.def("_comparison_picture", &picture_of_comparison, py::arg("motion"), py::arg("reference"),
                py::kw_only(), py::arg("body") = py::none(), py::arg("window") = py::none(),
-               "The data that samara.plot draws for both.");
+               "Returns the data that samara.plot draws for both.");
 }
 
 }  // namespace samara::python

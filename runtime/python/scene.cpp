@@ -139,34 +139,40 @@ std::string toml_text(const py::dict& values, const std::string& place) {
 }
 
 void bind_scene(py::module_& module) {
-    class_of<Scene, std::shared_ptr<Scene>>(module, "Scene",
-                                            "A checked scene: bodies, fluid and initial conditions. A Scene "
-                                            "is immutable; make another one for other values.")
+    class_of<Scene, std::shared_ptr<Scene>>(
+        module, "Scene",
+        "A checked scene: its bodies, their starts, the fluid and the surroundings. A Scene is immutable; "
+        "make another one for other values.")
         .def(py::init(&scene_of_dict), py::arg("values"), py::arg("folder") = ".",
-             "A scene from a dict with the keys of a scene file: {'scene': {'duration': 2}, 'fluid': {...}, "
-             "'body': [{...}, ...]}. Keys with the value None are left out. Paths are relative to `folder`.")
+             "Makes a scene from a dict with the keys of a scene file: {'scene': {'duration': 2}, 'fluid': "
+             "{...}, 'body': [{...}, ...]}. Keys whose value is None are left out; paths are relative to "
+             "`folder`. Raises InputError where the scene is wrong.")
         .def_static(
             "read",
             [](const std::filesystem::path& file) {
                 return on_input([&] { return read_scene_file(file); }, file);
             },
-            py::arg("file"), "Reads a scene file (.toml). Paths are relative to its folder.")
+            py::arg("file"),
+            "Reads a scene file (.toml); paths in it are relative to its folder. Raises FileError where it "
+            "cannot be read, InputError where its content is wrong.")
         .def_static(
             "from_text",
             [](const std::string& text, const std::filesystem::path& folder) {
                 return on_input([&] { return read_scene_text(text, "scene", folder); });
             },
-            py::arg("text"), py::arg("folder") = ".", "A scene from the text of a scene file.")
-        .def_readonly("duration", &Scene::duration, "s")
-        .def_readonly("step", &Scene::step, "s")
+            py::arg("text"), py::arg("folder") = ".",
+            "Makes a scene from the text of a scene file; paths in it are relative to `folder`. Raises "
+            "InputError where the scene is wrong.")
+        .def_readonly("duration", &Scene::duration, "Duration in s.")
+        .def_readonly("step", &Scene::step, "Time step in s.")
         .def_readonly("frame_rate", &Scene::frame_rate, "Frames per second.")
-        .def_readonly("seed", &Scene::seed, "Seed of the noise and the spread of starts.")
+        .def_readonly("seed", &Scene::seed, "Seed of the noise and of the spread of starts.")
         .def_readonly("ground", &Scene::ground, "Height of the level ground in m, or None.")
         .def_property_readonly(
             "gravity", [](const Scene& scene) { return scene.gravity; },
-            "Gravity: m/s^2, world axes, shape (3,).")
-        .def_property_readonly("names", &names_of, "The bodies' names, in the scene's order.")
-        .def_readonly("text", &Scene::text, "The text of the scene file.")
+            "Gravity in m/s^2, world axes, shape (3,).")
+        .def_property_readonly("names", &names_of, "Names of the bodies, in the scene's order.")
+        .def_readonly("text", &Scene::text, "The scene as the text of a scene file.")
         .def("__repr__", [](const Scene& scene) {
             return fmt::format("<samara.Scene of {} s: {}>", scene.duration,
                                fmt::join(names_of(scene), ", "));
@@ -180,8 +186,8 @@ void bind_scene(py::module_& module) {
             }
             return bodies;
         },
-        "The names of the ready-baked bodies, which a scene uses as 'samara:NAME', with the purpose of "
-        "each.");
+        "Returns the ready-baked bodies, which a scene names 'samara:NAME': a dict of each name and what it "
+        "is for.");
 }
 
 }  // namespace samara::python

@@ -354,77 +354,95 @@ py::array member_of(const py::object& self) {
 
 void bind_simulation(py::module_& module) {
     class_of<Poses>(module, "Poses",
-                    "Poses of all runs and copies of a body at one time, as read-only arrays.")
+                    "Poses of all runs and copies of a body at one time. Arrays are read-only.")
         .def_property_readonly(
             "position", &member_of<PoseMember::position>,
-            "Position of the centre of mass: m, world axes (z up), shape (runs, copies, 3).")
+            "Positions of the centre of mass in m, world axes (z up), shape (runs, copies, 3).")
         .def_property_readonly(
             "orientation", &member_of<PoseMember::orientation>,
-            "Rotation from shape to world axes: unit quaternions x, y, z, w, shape (runs, copies, 4).")
-        .def_property_readonly("velocity", &member_of<PoseMember::velocity>,
-                               "Velocity of the centre of mass: m/s, world axes, shape (runs, copies, 3).")
+            "Unit quaternions x, y, z, w that rotate from shape to world axes, shape (runs, copies, 4).")
+        .def_property_readonly(
+            "velocity", &member_of<PoseMember::velocity>,
+            "Velocities of the centre of mass in m/s, world axes, shape (runs, copies, 3).")
         .def_property_readonly("angular_velocity", &member_of<PoseMember::angular_velocity>,
-                               "Angular velocity: rad/s, world axes, shape (runs, copies, 3).");
-    class_of<LiveSimulation>(
-        module, "Simulation",
-        "A simulation of a scene that you advance step by step: read and set poses at any time, and save and "
-        "restore the state. The motion does not depend on the times at which you call advance().")
+                               "Angular velocities in rad/s, world axes, shape (runs, copies, 3).");
+    class_of<LiveSimulation>(module, "Simulation",
+                             "A simulation that you advance call by call: read and set poses, push bodies, "
+                             "save and restore everything. The motion does not depend on how the times are "
+                             "divided into calls. Threads may share a simulation: calls wait for each other.")
         .def(py::init<const Scene&, int, std::optional<std::uint64_t>, int, const std::filesystem::path&>(),
              py::arg("scene"), py::kw_only(), py::arg("runs") = 1, py::arg("seed") = py::none(),
              py::arg("threads") = 1, py::arg("bodies") = "",
-             "Puts the bodies of a Scene at their starts. `bodies`: a folder of baked bodies, NAME.body.h5.")
-        .def_property_readonly("time", &LiveSimulation::time, "s")
-        .def_property_readonly("steps", &LiveSimulation::steps,
-                               "The number of steps so far, over all bodies.")
-        .def_property_readonly("names", &LiveSimulation::names, "The bodies' names, in the scene's order.")
+             "Places the bodies of a Scene at their starts, at time 0. `runs`: repetitions that differ by "
+             "their noise alone. `seed`: instead of the scene's. `threads`: 0 for all cores; the motion is "
+             "the same for any number. `bodies`: a folder of baked bodies, NAME.body.h5 for each body of the "
+             "scene. Raises InputError where the scene or a body is wrong, FileError where a file cannot be "
+             "read.")
+        .def_property_readonly("time", &LiveSimulation::time, "Time in s.")
+        .def_property_readonly("steps", &LiveSimulation::steps, "Number of steps so far, over all bodies.")
+        .def_property_readonly("names", &LiveSimulation::names, "Names of the bodies, in the scene's order.")
         .def("advance", &LiveSimulation::advance, py::arg("time"), py::kw_only(),
              py::arg("progress") = py::none(),
-             "Advances all bodies to a time (s), not earlier than `time`. `progress` is called with (done, "
-             "total) in s.")
+             "Advances all bodies to a time (s). `progress`: called with (done, total) in s; it may read the "
+             "simulation but not change it, and an exception in it ends the call. Raises InputError for a "
+             "time that has passed, Error where a body's motion leaves the range of numbers.")
         .def("poses", &LiveSimulation::poses, py::arg("name"),
-             "The current poses of all copies of a body in all runs.")
+             "Returns the current poses of all copies of a body in all runs. Raises KeyError for an unknown "
+             "name.")
         .def("set_pose", &LiveSimulation::set_pose, py::arg("name"), py::kw_only(), py::arg("run") = 0,
              py::arg("copy") = 0, py::arg("position") = py::none(), py::arg("orientation") = py::none(),
              py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
-             "Sets the pose of one body; arguments that are left out keep their values.")
+             "Moves one body; arguments that are left out keep their values. Lengths in m, velocities in m/s "
+             "and rad/s, orientation as a unit quaternion x, y, z, w, all in world axes. A body that was "
+             "removed returns.")
         .def("add_force", &LiveSimulation::add_force, py::arg("name"), py::arg("force"), py::kw_only(),
              py::arg("point") = py::none(), py::arg("moment") = py::none(), py::arg("run") = 0,
              py::arg("copy") = 0,
-             "Applies a force to a body during the next advance(): N, world axes, at a point (m, world; "
-             "None: the centre of mass), and a moment (N m). Several forces add up.")
+             "Pushes a body during the next advance(): force in N, moment in N m, world axes; several add "
+             "up. `point`: where the force acts, in m, world axes; None: at the centre of mass. Raises "
+             "InputError for a body that was removed.")
         .def("add_impulse", &LiveSimulation::add_impulse, py::arg("name"), py::arg("impulse"), py::kw_only(),
              py::arg("point") = py::none(), py::arg("angular_impulse") = py::none(), py::arg("run") = 0,
              py::arg("copy") = 0,
-             "Applies an impulse to a body now (N s, world axes; N m s); the body and its added mass respond "
-             "together.")
+             "Gives a body an impulse now (N s, world axes) and an angular impulse (N m s); the body and its "
+             "added mass respond together. `point`: where it acts, in m, world axes; None: at the centre of "
+             "mass. Raises InputError for a body that was removed.")
         .def("remove", &LiveSimulation::remove, py::arg("name"), py::kw_only(), py::arg("run") = 0,
-             py::arg("copy") = 0, "Removes a body; set_pose() restores it.")
+             py::arg("copy") = 0,
+             "Removes a body: it takes no steps and touches nothing, until set_pose() restores it.")
         .def("fluid_load", &LiveSimulation::fluid_load, py::arg("name"), py::kw_only(), py::arg("run") = 0,
              py::arg("copy") = 0,
-             "The fluid loads on a body in its next step, for a host that integrates the body: wrench W "
-             "(6,), added inertia A and damping D (6, 6), SI units, world axes at the centre of mass, "
-             "angular then linear. With its own inertia M, own wrench g and the step h: (M + A + h D) a = g "
-             "+ W. Then set_pose() and advance() by a step.")
+             "Returns the load of the fluid on a body in its next step, for an engine that integrates the "
+             "body itself: wrench W, shape (6,), added inertia A and damping D, shape (6, 6), in SI units "
+             "and world axes, at the centre of mass, angular before linear. With the body's own inertia M, "
+             "own wrench g and the step h: (M + A + h D) a = g + W. Then call set_pose(), and advance() by "
+             "one step.")
         .def("mass_properties", &LiveSimulation::mass_properties, py::arg("name"), py::kw_only(),
              py::arg("run") = 0, py::arg("copy") = 0,
-             "The body's own mass (kg), centre of mass (m from the shape's origin, shape axes, (3,)) and "
-             "inertia about it (kg m^2, shape axes, (3, 3)), without added mass.")
+             "Returns the mass (kg), the centre of mass (m, from the shape's origin, shape axes, shape (3,)) "
+             "and the inertia about it (kg m^2, shape axes, shape (3, 3)) of the body alone, without added "
+             "mass.")
         .def("set_ground", &LiveSimulation::set_ground, py::arg("height"),
-             "Sets the height of the level ground (m), or None to remove it. Bodies below it are lifted onto "
-             "it.")
+             "Sets level ground at a height (m), or removes it (None). Bodies below it are lifted onto it.")
         .def("set_wind", &LiveSimulation::set_wind, py::arg("wind"),
-             "Sets the scene's wind from now on: a dict with the keys of [wind] of a scene; {} removes it.")
+             "Replaces the wind from now on: a dict with the keys of [wind] of a scene; {} for none. Raises "
+             "InputError where the wind is wrong.")
         .def("watch_contacts", &LiveSimulation::watch_contacts, py::arg("watch"),
-             "Starts or stops recording contacts of bodies with the ground, obstacles and each other.")
+             "Records the contacts of bodies with the ground, obstacles and each other from now on, or stops "
+             "(False).")
         .def("take_contacts", &LiveSimulation::take_contacts, py::arg("name"),
-             "The contacts of a body's copies since the last call, as arrays (runs, copies, ...): impulse (N "
-             "s, world axes, the sum), strongest (N s, the largest at one point in one step; 0: no contact) "
-             "with its point (m), normal, time (s), obstacle (its index; -1: level ground, or a body) and "
-             "body (the index of the other body, counted over the scene's bodies, run by run and copy by "
-             "copy; -1: none), and at_rest.")
-        .def("state", &LiveSimulation::state, "The complete state of the simulation, as bytes.")
+             "Returns the contacts of a body since the last call, as a dict of arrays of shape (runs, "
+             "copies) or (runs, copies, 3): impulse (N s, world axes, the sum), strongest (N s, the largest "
+             "at one point in one step; 0: no contact) with its point (m), normal and time (s), obstacle "
+             "(its number; -1: level ground, or a body), body (the number of the other body, counted over "
+             "all bodies of the scene, run by run and copy by copy; -1: none), and at_rest. Raises "
+             "InputError while contacts are not watched.")
+        .def("state", &LiveSimulation::state,
+             "Returns everything that the rest of the motion depends on, as bytes, but for forces that wait "
+             "for advance() and recorded contacts.")
         .def("set_state", &LiveSimulation::set_state, py::arg("state"),
-             "Restores a state that was saved with the same scene, runs and seed.");
+             "Continues from a state() of a simulation of the same scene, runs, ground and wind. Raises "
+             "InputError for other bytes.");
 }
 
 }  // namespace samara::python

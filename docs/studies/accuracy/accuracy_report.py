@@ -146,9 +146,9 @@ def front_table(rows, nature):
     def measured(column):
         return f"{judged[column].count(False)} of {len(judged[column])}"
 
-    costs = {row["what"]: row for row in rows_from(f"{FOLDER}/costs.csv")}
+    costs = rows_from(f"{FOLDER}/costs.csv")
     heads = ("no bake", "standard bake", "MuJoCo's fluid model", "full CFD")
-    lines = [[f"[{row['what']}]({row['link']})", *(row[head] for head in heads)] for row in costs.values()]
+    lines = [[f"[{row['what']}]({row['link']})", *(row[head] for head in heads)] for row in costs]
     lines += [
         [f"[{HELD_OUT}]({PAGE}#held-out-falls): regime right, within 10/20/30 %, mean descent error", cell(HELD_OUT, NO_BAKE, held_out),
          cell(HELD_OUT, STANDARD, held_out), cell(HELD_OUT, FITTED, held_out), cell(HELD_OUT, CFD, held_out)],
