@@ -277,6 +277,7 @@ cycles.use_denoising = cycles.use_adaptive_sampling = False  # Debian's Blender 
 cycles.max_bounces = 1
 scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.5
 scene.view_settings.view_transform = "Filmic"
+scene.view_settings.exposure = 0.2
 scene.view_settings.look = "Medium High Contrast"
 scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 540, 360, 100
 scene.render.use_persistent_data = True
@@ -284,7 +285,7 @@ if len(arguments) > 3:
     scene.frame_start = scene.frame_end = int(arguments[3])
 
 # Without leaves: few samples and many.
-few, many = 10, 72
+few, many = 12, 72
 flying = [o for name, o in imported.items() if name.startswith(("leaf", "early", "samara"))]
 for o in flying:
     o.hide_render = True

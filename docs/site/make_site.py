@@ -125,7 +125,7 @@ def main(words):
         if page == "README.md":
             for part, caption in PARTS.items():
                 text += toctree(caption, [place_of(page).removesuffix(".md") for page in parts[part]])
-            text += toctree("The project", ["pages", "architecture", "CONTRIBUTING", "CHANGELOG"])
+            text += toctree("The project", ["pages", "architecture", "pictures/README", "CONTRIBUTING", "CHANGELOG"])
         if page == "docs/reference/commands.md":
             text += toctree("Commands", commands)
         if page == "docs/reference/python.md":
