@@ -116,8 +116,7 @@ void read_models(TomlTable& table, SceneBody& body) {
     body.table_reynolds_number = table.number("table_reynolds_number");
     if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
         if (body.loads == Loads::none)
-            throw table.error("patches",
-                              "applies to loads, but the loads are " none "; remove it or change loads");
+            throw table.error("patches", "applies to loads, but loads = \"none\"; remove it or change loads");
         body.patches = static_cast<int>(*patches);
     }
     body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
