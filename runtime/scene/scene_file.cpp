@@ -160,9 +160,9 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
     const auto dissipation = table.number("dissipation_rate");
     const bool constant = body.turbulence == Turbulence::constant;
     if (constant != energy.has_value() || constant != dissipation.has_value()) {
-        throw table.error("turbulence", constant ? "is " constant
-                                                   "; give turbulent_kinetic_energy and dissipation_rate"
-                                                 : R"(must be "constant" if its values are given)");
+        throw table.error("turbulence", constant
+                                            ? "needs turbulent_kinetic_energy and dissipation_rate; give both"
+                                            : R"(must be "constant" if its values are given)");
     }
     assign(body.turbulent_kinetic_energy, energy);
     assign(body.dissipation_rate, dissipation);
