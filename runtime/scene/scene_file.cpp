@@ -116,8 +116,7 @@ void read_models(TomlTable& table, SceneBody& body) {
     body.table_reynolds_number = table.number("table_reynolds_number");
     if (const auto patches = table.integer("patches", 1, most_surface_patches)) {
         if (body.loads == Loads::none)
-            throw table.error("patches",
-                              "applies to loads, but the loads are " none "; remove it or change loads");
+            throw table.error("patches", "applies to loads, but loads = \"none\"; remove it or change loads");
         body.patches = static_cast<int>(*patches);
     }
     body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
@@ -161,9 +160,9 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
     const auto dissipation = table.number("dissipation_rate");
     const bool constant = body.turbulence == Turbulence::constant;
     if (constant != energy.has_value() || constant != dissipation.has_value()) {
-        throw table.error("turbulence", constant ? "is " constant
-                                                   "; give turbulent_kinetic_energy and dissipation_rate"
-                                                 : R"(must be "constant" if its values are given)");
+        throw table.error("turbulence", constant
+                                            ? "needs turbulent_kinetic_energy and dissipation_rate; give both"
+                                            : R"(must be "constant" if its values are given)");
     }
     assign(body.turbulent_kinetic_energy, energy);
     assign(body.dissipation_rate, dissipation);

@@ -260,7 +260,7 @@ TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
                     "the smallest and the largest size");
     group = rubber_group(1);
     group.largest_size = 2.0;
-    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "they are of several");
+    expect_rejected(CALL(samara_simulation_add, s, body.get(), &group, nullptr), "needs several copies");
     EXPECT_EQ(state_of(simulation), before) << "a call that fails changes nothing";
     poses_at(simulation, 0.003);
     samara_fluid_load load;
