@@ -14,6 +14,7 @@ suppress_warnings = ["myst.header"]  # a page of a study may begin at any headin
 html_theme = "furo"
 html_title = "samara"
 html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_extra_path = ["_extra"]
 html_show_sphinx = False
 html_copy_source = False

@@ -136,6 +136,7 @@ def main(words):
     write(f"{source}/reference/python-module.rst", PYTHON)
     os.makedirs(f"{source}/_static", exist_ok=True)
     os.makedirs(f"{source}/_extra", exist_ok=True)
+    write(f"{source}/_static/site.css", "code.literal { overflow-wrap: anywhere; }\n")
     shutil.copyfile(os.path.join(ROOT, "build/tools/node_modules/mathjax/es5/tex-svg.js"), f"{source}/_static/tex-svg.js")
     if os.path.isdir(f"{out}/cpp"):
         os.symlink(f"{out}/cpp", f"{source}/_extra/cpp")
