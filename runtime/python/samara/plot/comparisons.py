@@ -1,4 +1,4 @@
-"""The picture of a motion held against a reference."""
+"""The picture of a motion compared with a reference."""
 
 from typing import Any
 
