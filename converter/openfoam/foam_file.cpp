@@ -154,7 +154,7 @@ std::vector<Value> read_list(FoamScanner& scanner, const FoamHeader& header) {
     if (!scanner.accept(')') || values.size() != count) {
         throw scanner.error(
             fmt::format("the list should have {} values, but {}", count,
-                        values.size() < count ? fmt::format("ends after {}", values.size()) : "goes on"));
+                        values.size() < count ? fmt::format("ends after {}", values.size()) : "continues"));
     }
     return values;
 }

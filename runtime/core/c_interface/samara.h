@@ -257,7 +257,7 @@ SAMARA_API samara_status samara_get_poses(const samara_simulation* simulation, s
 
 /* Places bodies elsewhere at the simulation's time; orientations are normalised. A body keeps its sampled
  * turbulence and its wake, but one that was removed starts anew. Within a step the body moves steadily to the
- * step's end, where its simulation continues: the grid stays. Before the body's start this is the place that
+ * step's end; normal stepping resumes at the next step. Before the body's start this is the place that
  * it will start from. A body below the ground is lifted onto it in the next step. */
 SAMARA_API samara_status samara_set_poses(samara_simulation* simulation, size_t first, size_t count,
                                           const samara_pose* poses, size_t stride, char* error,

@@ -223,7 +223,7 @@ TEST_F(FoamFile, ErrorsNameFileAndLine) {
     EXPECT_THAT(error_in("internalField nonuniform List<scalar> \n3\n(\n1\n2\n)\n;"),
                 EndsWith(":21: the list should have 3 values, but ends after 2"));
     EXPECT_THAT(error_in("internalField nonuniform List<scalar> \n1\n(\n1\n2\n)\n;"),
-                EndsWith(":20: the list should have 1 values, but goes on"));
+                EndsWith(":20: the list should have 1 values, but continues"));
     EXPECT_THAT(error_in("internalField nonuniform List<scalar> 2\n(\n1\nabc\n)\n;"),
                 EndsWith(":19: expected a number, found 'abc'"));
     EXPECT_THAT(error_in("internalField nonuniform List<scalar> 2\n(\n1\n1.5.2\n)\n;"),
