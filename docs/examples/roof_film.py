@@ -3,7 +3,7 @@
   samara simulate docs/scenes/roof-film.toml -o roof-film.h5
   samara export roof-film.h5 -o roof-film.glb
   blender -b --factory-startup --python docs/examples/roof_film.py -- ADD-ON.zip roof-film.glb FRAMES/
-  img2webp -loop 0 -lossy -q 60 -m 6 -d 83 FRAMES/0*.png -d 1500 FRAMES/0100.png -o leaves-on-roof.webp
+  img2webp -loop 0 -lossy -q 86 -m 6 -d 83 FRAMES/0*.png -d 1500 FRAMES/0100.png -o leaves-on-roof.webp
 
 ADD-ON.zip is build/release/samara-blender-*.zip, img2webp is in Debian's package webp. A number after FRAMES/ renders
 that frame alone. The noise of the few samples is taken out of all that neither a leaf nor its shadow touches: two
