@@ -13,11 +13,12 @@ import statistics
 import sys
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
-from falls_report import FIGURES, agrees, differences_of, has_the_regime, rows_of_falls, worst_of, written  # noqa: E402
+from falls_report import FIGURES, differences_of, has_the_regime, rows_of_falls, worst_of, written  # noqa: E402
 from motion_report import cfd  # noqa: E402
+from nature_study import CASES  # noqa: E402
 from nature_tables import MODELS as NATURE_MODELS  # noqa: E402
 from nature_tables import as_number, misses, ratio_of, tally_table  # noqa: E402
-from peers_report import DEFAULT, OTHERS, SURFACE  # noqa: E402
+from peers_report import DEFAULT, OTHERS, SURFACE, agreement  # noqa: E402
 from report_tables import mark, table, write_tables  # noqa: E402
 
 STUDIES = "docs/studies"
@@ -49,7 +50,8 @@ def summed(what, model, falls):
 
 
 def of_runtime(row):
-    return has_the_regime(row), agrees(row), differences_of(row)[0], worst_of(row)
+    right = has_the_regime(row)
+    return right, agreement(row["fall"], row["agrees"] == "yes", right) == "yes", differences_of(row)[0], worst_of(row)
 
 
 def of_motion(row):
@@ -64,7 +66,7 @@ def of_peer(row):
 def summaries():
     motion = rows_from(f"{STUDIES}/motion/motion.csv")
     for name, model in OF_MOTION.items():
-        falls = [of_motion(row) for row in motion if row["model"] == name]
+        falls = [of_motion(row) for row in motion if row["model"] == name and row["worst_error"]]
         if falls:
             yield summed(HELD_OUT, model, falls)
     for noise, model in OF_NOISE.items():
@@ -107,18 +109,22 @@ def held_out_table():
 
 def measured_table(rows):
     """The published speeds and rotation rates with an uncertainty, and what each model gives."""
+    names = {case.name: f"{case.group}: {case.text}" for case in CASES}
+
     def cell(row, column):
         ratio, error = ratio_of(row, column), as_number(row[f"{column}_error"])
         if ratio is None:
             return "-"
-        text = f"{100 * (ratio - 1):+.0f} +- {100 * (error or 0) / float(row['published']):.0f} %"
+        share = 100 * (error or 0) / float(row["published"])
+        text = f"{100 * (ratio - 1):+.0f}" + (f" +- {share:.0f}" if share >= 1 else "") + " %"
         return f"**{text}**" if misses(row, column) else text
 
     chosen = [row for row in rows if row["uncertainty"] and as_number(row["published"]) and row["verified"] != "exact"
-              and row["quantity"] in ("descent speed", "spin", "speed without walls", "turning rate", "drift")
+              and row["quantity"] in ("descent speed", "spin", "speed without walls", "turning rate")
               and any(row[column] for column in ("tables", "cfd"))]
-    return table(["case", "quantity", "published", "no bake", "baked", "full CFD"],
-                 ([row["case"], row["quantity"], f"{row['published']} +- {row['uncertainty']} {row['unit']}".rstrip(" -"),
+    return table(["case", "quantity", "published", "uncertainty", "no bake", "baked", "full CFD"],
+                 ([names[row["case"]], row["quantity"], f"{row['published']} {row['unit']}",
+                   f"{100 * float(row['uncertainty']) / float(row['published']):.1f} %",
                    *(cell(row, column) for column in NATURE_MODELS.values())] for row in chosen))
 
 
@@ -133,7 +139,7 @@ def front_table(rows, nature):
         return text(row) if row else "-"
 
     def held_out(row):
-        return (f"{row['regimes_right']}, {row['within_10_20_30']} of {row['count']}, "
+        return (f"{row['regimes_right']} of {row['count']}; {row['within_10_20_30']} of {row['count']}; "
                 f"{percent(float(row['mean_descent_error']))}")
 
     def within(row):
@@ -141,7 +147,7 @@ def front_table(rows, nature):
 
     def both(model):
         cells = [cell(what, model, within) for what in (HARD, LONG)]
-        return ", ".join(cells) if any(text != "-" for text in cells) else "-"
+        return "; ".join(cells) if any(text != "-" for text in cells) else "-"
 
     def measured(column):
         return f"{judged[column].count(False)} of {len(judged[column])}"
@@ -150,7 +156,7 @@ def front_table(rows, nature):
     heads = ("no bake", "standard bake", "MuJoCo's fluid model", "full CFD")
     lines = [[f"[{row['what']}]({row['link']})", *(row[head] for head in heads)] for row in costs]
     lines += [
-        [f"[{HELD_OUT}]({PAGE}#held-out-falls): regime right, within 10/20/30 %, mean descent error", cell(HELD_OUT, NO_BAKE, held_out),
+        [f"[{HELD_OUT}]({PAGE}#held-out-falls): regime right; within 10/20/30 %; mean descent error", cell(HELD_OUT, NO_BAKE, held_out),
          cell(HELD_OUT, STANDARD, held_out), cell(HELD_OUT, FITTED, held_out), cell(HELD_OUT, CFD, held_out)],
         [f"[{HARD}, {LONG}]({PAGE}#all-sets): within 10/20/30 %", both(NO_BAKE), both(STANDARD), both(FITTED), "the reference"],
         [f"[measured falls]({PAGE}#measured-falls): values within their uncertainty", measured("surface"), measured("tables"), "-",

@@ -256,7 +256,8 @@ def draw_motion(rows, _):
     marks = []
     for model, name, color, marker, side in models:
         seconds, errors = points(rows, "seconds_per_simulated_second", "worst_error", model=model)
-        if not errors:
+        errors = [error for error in errors if not math.isnan(error)]
+        if len(errors) < 2:
             continue
         low, middle, high = statistics.quantiles([100 * error for error in errors], n=4, method="inclusive")
         place = statistics.median(seconds)

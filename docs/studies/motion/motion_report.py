@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Error of the motion against time, from inertia alone to full CFD, on the nine held-out falls.
 
-    motion_report.py BIN BODIES WORK    solves what is missing in WORK by full CFD, simulates the falls by every model, and writes
-                                        motion.csv, motion.png and the table of README.md
-    motion_report.py                    draws the picture and writes the table again from the rows of the last run
+    motion_report.py BIN BODIES WORK [solve]    simulates the falls by every model, and writes motion.csv, motion.png and the table of
+                                                README.md; with `solve` it solves what is missing in WORK by full CFD first: three CPU hours
+    motion_report.py                            writes the table again from the rows of the last run
 
 BODIES: as falls_report.py leaves it, NAME.body.h5 at quality standard, and NAME-preview.body.h5, which is baked here if it is missing.
-The references are docs/studies/motion/fine: the falls of docs/studies/test-falls on 60,000 cells. The rows of MuJoCo's model are made
-where BIN has samara-peer-falls (./dev bench builds it). Run from the project's folder.
+The references are docs/studies/motion/fine, the falls of docs/studies/test-falls on 60,000 cells; where that is not solved those on 20,000.
+The rows of MuJoCo's model are made where BIN has samara-peer-falls (./dev bench builds it). Run from the project's folder.
 """
 
 import csv
@@ -28,11 +28,11 @@ from report_tables import mark, table, write_tables  # noqa: E402
 from study_pictures import picture_of  # noqa: E402
 from surface_report import plain, shape_of  # noqa: E402
 from test_falls_report import FOLDER as FALLS  # noqa: E402
-from test_falls_report import SCENES, file_of  # noqa: E402
+from test_falls_report import SCENES, file_of, rows_of_references  # noqa: E402
 
 FOLDER = "docs/studies/motion"
 FINE, REFERENCE_CELLS, OTHER_CELLS = f"{FOLDER}/fine", 60000, 20000
-COARSE_CELLS = (6000, OTHER_CELLS)
+FILM, FLOWS_A_SECOND = "disc-1300", 20  # the fall of wake_film.py, which needs the flow
 # The models, cheapest first: the keys that the body of a scene is given, the body file that it needs, how many steps of the scene are
 # made one, and how many runs are simulated: more than one with noise.
 MODELS = (
@@ -67,9 +67,14 @@ def duration_of(scene):
         return float(re.search(r"duration = ([0-9.]+)", file.read()).group(1))
 
 
+def reference_of(scene):
+    """The fall on the finest mesh that it is solved on."""
+    return f"{FINE}/{scene}.h5" if os.path.exists(f"{FINE}/{scene}.h5") else f"{FALLS}/{scene}.h5"
+
+
 def row_of(programs, scene, model, seconds, motion):
-    """The row of a motion beside the reference on the finest mesh."""
-    comparison = run([f"{programs}/samara", "compare", motion, f"{FINE}/{scene}.h5", "--json"])
+    """The row of a motion beside its reference."""
+    comparison = run([f"{programs}/samara", "compare", motion, reference_of(scene), "--json"])
     row = [scene, model, seconds, worst_figure(comparison), comparison["motion"]["regime"], comparison["reference"]["regime"],
            "yes" if comparison["agrees"] and comparison["regimes_agree"] else "no"]
     for figure in FIGURES:
@@ -79,18 +84,36 @@ def row_of(programs, scene, model, seconds, motion):
     return row
 
 
-def by_cfd(programs, work):
-    """The falls on each mesh; the reference, if it is missing, gets what it differs by from the next coarser one."""
+def is_solved(work, scene, cells):
+    return os.path.exists(f"{work}/{scene}-{cells}-{CLOSURE}/{scene}.h5")
+
+
+def flow_of(scene, cells):
+    """The words with which a fall is solved that the film shows."""
+    return ["--fields", str(FLOWS_A_SECOND)] if (scene, cells) == (FILM, REFERENCE_CELLS) else []
+
+
+def by_cfd(programs, work, solves):
+    """The rows of the falls on each mesh that is solved, or, if it `solves`, on all; references on the finest mesh, with what they
+    differ by from the next coarser one, go to FINE."""
     rows = []
     os.makedirs(FINE, exist_ok=True)
     for scene in SCENES:
-        motions = {cells: solved(programs, work, scene, cells, CLOSURE, falls=FALLS) for cells in (*COARSE_CELLS, REFERENCE_CELLS)}
-        if not os.path.exists(f"{FINE}/{scene}.h5"):
+        motions = {cells: solved(programs, work, scene, cells, CLOSURE, flow_of(scene, cells), FALLS) for cells in (6000, REFERENCE_CELLS)
+                   if solves or is_solved(work, scene, cells)}
+        if REFERENCE_CELLS in motions and not os.path.exists(f"{FINE}/{scene}.h5"):
             run([f"{programs}/samara", "validate", motions[REFERENCE_CELLS][0], "-o", f"{work}/{scene}-fine.h5", "--other-mesh",
-                 motions[OTHER_CELLS][0], "--json"])
+                 f"{FALLS}/{scene}.h5", "--json"])
             shutil.copyfile(f"{work}/{scene}-fine.h5", f"{FINE}/{scene}.h5")
-        for cells, (motion, result) in motions.items():
-            rows.append(row_of(programs, scene, cfd(cells), result["cpu_seconds"] / duration_of(scene), motion))
+        costs = {cells: result["cpu_seconds"] / duration_of(scene) for cells, (_, result) in motions.items()}
+        costs[OTHER_CELLS] = next(float(row["cpu_seconds"]) for row in rows_of_references() if row["fall"] == scene) / duration_of(scene)
+        for cells in sorted(costs):
+            # On its own mesh a reference has no error.
+            if (cells == OTHER_CELLS) == (reference_of(scene) == f"{FALLS}/{scene}.h5") and cells != 6000:
+                rows.append([scene, cfd(cells), costs[cells]] + [None] * (len(HEADS) - 3))
+            else:
+                rows.append(row_of(programs, scene, cfd(cells), costs[cells],
+                                   f"{FALLS}/{scene}.h5" if cells == OTHER_CELLS else motions[cells][0]))
     return rows
 
 
@@ -134,31 +157,32 @@ def summary(rows):
     for model in dict.fromkeys(row["model"] for row in rows):
         of_model = [row for row in rows if row["model"] == model]
         seconds = statistics.median(float(row["seconds_per_simulated_second"]) for row in of_model)
-        worst = sorted(float(row["worst_error"]) for row in of_model)
-        descent = [abs(float(row["descent_speed_difference"])) for row in of_model if row["descent_speed_difference"]]
-        is_reference = model == cfd(REFERENCE_CELLS)
-        low, middle, high = statistics.quantiles(worst, n=4, method="inclusive")
-        lines.append([model, f"{seconds:.2g}"] + (["the reference"] + ["-"] * 4 if is_reference else [
+        judged = [row for row in of_model if row["worst_error"]]
+        descent = [abs(float(row["descent_speed_difference"])) for row in judged if row["descent_speed_difference"]]
+        if judged:
+            worst = [float(row["worst_error"]) for row in judged]
+            low, middle, high = statistics.quantiles(worst if len(worst) > 1 else 2 * worst, n=4, method="inclusive")
+        lines.append([model, f"{seconds:.2g}"] + ([
             f"{100 * middle:.0f} %", f"{100 * low:.0f} to {100 * high:.0f} %", f"{100 * statistics.mean(descent):.0f} %",
-            f"{sum(row['regime'] == row['regime_reference'] for row in of_model)} of {len(of_model)}",
-            f"{sum(row['agrees'] == 'yes' for row in of_model)} of {len(of_model)}"]))
+            f"{sum(row['regime'] == row['regime_reference'] for row in judged)} of {len(judged)}",
+            f"{sum(row['agrees'] == 'yes' for row in judged)} of {len(judged)}"] if judged else ["the reference"] + ["-"] * 4))
     return table(["model", "s for a simulated second", "worst metric: median", "quartiles", "descent: mean", "regimes right",
                   "within 10, 20, 30 %"], lines)
 
 
 def main(words):
-    if len(words) not in (1, 4):
+    if len(words) not in (1, 4) and words[4:] != ["solve"]:
         sys.stderr.write(__doc__)
         return 2
-    if len(words) == 4:
-        programs, bodies, work = words[1:]
+    if len(words) > 1:
+        programs, bodies, work = words[1:4]
         os.makedirs(work, exist_ok=True)
-        rows = by_cfd(programs, work)
+        rows = by_cfd(programs, work, "solve" in words)
         written(f"{FOLDER}/motion.csv", [HEADS] + by_runtime(programs, bodies) + by_mujoco(programs) + rows)
     with open(f"{FOLDER}/motion.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     write_tables(f"{FOLDER}/README.md", [summary(rows)], mark("motion"))
-    if len(words) == 4:
+    if len(words) > 1:
         picture_of("motion", f"{FOLDER}/motion.csv", f"{FOLDER}/motion.png")
     return 0
 

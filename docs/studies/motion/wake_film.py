@@ -24,11 +24,12 @@ from scipy.spatial import ConvexHull
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from falls_report import baked, run, scene_with  # noqa: E402
+from motion_report import FILM as NAME  # noqa: E402
+from motion_report import FLOWS_A_SECOND as RATE  # noqa: E402
 from study_pictures import flights, new_figure  # noqa: E402
 from test_falls_report import FOLDER, SCENES  # noqa: E402
 
-NAME = "disc-1300"
-SECONDS, RATE = 7.0, 20
+SECONDS = 7.0
 WIDTH, HEIGHT = 0.23, 0.23  # of a panel, m
 RADIUS, HALF_THICKNESS = 0.02, 0.002  # of docs/studies/falls/disc.geo, m
 
