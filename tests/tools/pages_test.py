@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The commands of the pages run: pages_test.py BIN PYTHON [PAGE...], with the folders of the programs and of the Python module.
 
-Of each page of docs/start, docs/tutorials and docs/how-to, and of the README, the ```sh blocks run in one shell, in an empty folder where
+Of the README and each page of docs/ outside of docs/studies, the ```sh blocks run in one shell, in an empty folder where
 docs, meshes and runtime link to the project's, samara is on the PATH and python3 is Debian's. A block of another language whose first line is a comment
 that names a file (# pebble.toml) is saved under that name first. What takes minutes or a machine of its own stands in ```console
 blocks, which are not run.
@@ -52,8 +52,8 @@ def main(words):
     if len(words) < 3:
         sys.exit(__doc__)
     programs, python = map(os.path.abspath, words[1:3])
-    pages = words[3:] or [f"{ROOT}/README.md"] + sorted(sum((glob.glob(f"{ROOT}/docs/{part}/*.md")
-                                                             for part in ("start", "tutorials", "how-to")), []))
+    pages = words[3:] or [f"{ROOT}/README.md"] + sorted(page for page in glob.glob(f"{ROOT}/docs/**/*.md", recursive=True)
+                                                        if "/docs/studies/" not in page)
     failed, blocks = [], 0
     for page in pages:
         runs, count, said = run_page(page, programs, python)

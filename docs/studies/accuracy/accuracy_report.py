@@ -13,12 +13,12 @@ import statistics
 import sys
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
-from falls_report import FIGURES, differences_of, has_the_regime, rows_of_falls, worst_of, written  # noqa: E402
+from falls_report import FIGURES, agrees, differences_of, has_the_regime, rows_of_falls, worst_of, written  # noqa: E402
 from motion_report import cfd  # noqa: E402
 from nature_study import CASES  # noqa: E402
 from nature_tables import MODELS as NATURE_MODELS  # noqa: E402
 from nature_tables import as_number, misses, ratio_of, tally_table  # noqa: E402
-from peers_report import DEFAULT, OTHERS, SURFACE, agreement  # noqa: E402
+from peers_report import DEFAULT, OTHERS, SURFACE  # noqa: E402
 from report_tables import mark, table, write_tables  # noqa: E402
 
 STUDIES = "docs/studies"
@@ -27,6 +27,7 @@ FOLDER, PAGE = f"{STUDIES}/accuracy", "docs/explanation/accuracy.md"
 NO_BAKE, STANDARD, NOISE, MUJOCO, FITTED, CFD = ("no bake", "standard bake", "standard bake, noise", "MuJoCo, defaults",
                                                  "MuJoCo, fitted to other falls", "full CFD, 20,000 cells")
 HELD_OUT, HARD, LONG, CHOSEN = "held-out falls", "hard starts", "long falls", "falls that the form was chosen on"
+READY, READY_BODY, READY_NOISE = "ready-baked bodies, one fall each", "ready-baked", "ready-baked, noise"
 OF_MOTION = {"no bake": NO_BAKE, "preview bake": "preview bake", "standard bake": STANDARD, "standard bake with noise (20 runs)": NOISE,
              DEFAULT: MUJOCO, OTHERS: FITTED, cfd(6000): "full CFD, 6,000 cells", cfd(20000): CFD}
 OF_NOISE = {"off": STANDARD, "on": NOISE}
@@ -50,8 +51,7 @@ def summed(what, model, falls):
 
 
 def of_runtime(row):
-    right = has_the_regime(row)
-    return right, agreement(row["fall"], row["agrees"] == "yes", right) == "yes", differences_of(row)[0], worst_of(row)
+    return has_the_regime(row), agrees(row), differences_of(row)[0], worst_of(row)
 
 
 def of_motion(row):
@@ -60,7 +60,8 @@ def of_motion(row):
 
 
 def of_peer(row):
-    return row["regime"] == row["regime_cfd"], row["agrees"] == "yes", as_number(row["descent"]) or 1.0, float(row["worst"])
+    right = row["regime"] == row["regime_cfd"]
+    return right, right and row["agrees"] == "yes", as_number(row["descent"]) or 1.0, float(row["worst"])
 
 
 def summaries():
@@ -74,6 +75,8 @@ def summaries():
         yield summed(HARD, model, [of_runtime(row) for row in rows])
         yield summed(LONG, model, [of_runtime(row) for row in rows_of_falls(noise, f"{STUDIES}/falls/long/falls.csv")])
         yield summed(CHOSEN, model, [of_runtime(row) for row in rows_of_falls(noise, f"{STUDIES}/falls/falls.csv")])
+    for noise, model in (("off", READY_BODY), ("on", READY_NOISE)):
+        yield summed(READY, model, [of_runtime(row) for row in rows_of_falls(noise, f"{STUDIES}/falls/bodies.csv")])
     surface = rows_from(f"{STUDIES}/surface-loads/surface-loads.csv")
     yield summed(HARD, NO_BAKE, [of_runtime(row) for row in surface if row["fall"] in HARD_STARTS])
     for what, file in ((LONG, "peers-long.csv"), (CHOSEN, "peers.csv")):
@@ -87,8 +90,8 @@ def percent(value):
 
 
 def counts_table(rows):
-    order = (HELD_OUT, HARD, LONG, CHOSEN)
-    models = list(dict.fromkeys([*OF_MOTION.values()]))
+    order = (HELD_OUT, HARD, LONG, READY, CHOSEN)
+    models = [*OF_MOTION.values(), READY_BODY, READY_NOISE]
     rows = sorted(rows, key=lambda row: (order.index(row["falls"]), models.index(row["model"])))
     return table(["falls", "model", "regime right", "within 10, 20, 30 %", "descent, mean error", "worst metric, mean error"],
                  ([row["falls"], row["model"], f"{row['regimes_right']} of {row['count']}", f"{row['within_10_20_30']} of {row['count']}",

@@ -265,7 +265,7 @@ TEST_F(FallIdentification, KeepsTheMetricsOfTheWholeFallWhereTheModelCannotFollo
 
 TEST_F(FallIdentification, RejectsToIdentifyFromNothing) {
     EXPECT_EQ(test::error_of([&] { static_cast<void>(identify_motion(body_, {})); }),
-              "exact: has no falls to identify coefficients from");
+              "exact: has no falls to identify coefficients from; give folders of solved falls");
 }
 
 TEST_F(FallIdentification, RejectsAFallThatIsTooShort) {
@@ -273,10 +273,12 @@ TEST_F(FallIdentification, RejectsAFallThatIsTooShort) {
     record.fall.name = "fall_07";
     record.samples.resize(899);
     EXPECT_EQ(error_with(body_, record),
-              "fall_07: the fall is too short to identify coefficients: it lasts 8.99 L/U and must last 9");
+              "fall_07: the fall is too short to identify coefficients: it lasts 8.99 L/U and must last 9; "
+              "solve a longer one");
     record.samples.clear();
     EXPECT_EQ(error_with(body_, record),
-              "fall_07: the fall is too short to identify coefficients: it lasts 0 L/U and must last 9");
+              "fall_07: the fall is too short to identify coefficients: it lasts 0 L/U and must last 9; "
+              "solve a longer one");
     record.samples.assign(record_.samples.begin(), record_.samples.begin() + 900);
     EXPECT_EQ(identify_motion(body_, {record}).segments, 12);
 }
