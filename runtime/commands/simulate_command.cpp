@@ -221,7 +221,8 @@ nlohmann::json run(const Request& request, const Arguments& arguments) {
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         note_reynolds_numbers(notes, scene.bodies[i], *loaded[i].body, report.bodies[i]);
         if (scene.bodies[i].loads != Loads::surface) {  // whose errors are not of a bake
-            note_table_errors(notes, scene.bodies[i].name, report.bodies[i].table_errors);
+            note_table_errors(notes, scene.bodies[i].name, loaded[i].body->tables,
+                              report.bodies[i].table_errors);
         }
     }
     notes.print();

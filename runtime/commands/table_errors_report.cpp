@@ -64,7 +64,8 @@ nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables,
     return result;
 }
 
-void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsOnPath& errors) {
+void note_table_errors(BodyNotes& notes, const std::string& body, const std::optional<LoadTables>& tables,
+                       const TableErrorsOnPath& errors) {
     std::vector<std::string> quantities;
     double worst = 0.0;
     const auto note_quantity = [&](const char* quantity, double error) {
@@ -76,9 +77,11 @@ void note_table_errors(BodyNotes& notes, const std::string& body, const TableErr
     note_quantity("k", errors.mean_turbulent_kinetic_energy());
     if (!quantities.empty()) {
         notes.add("tables", body, worst,
-                  fmt::format("the tables are uncertain by {} along the motion (standard error); bake with a "
-                              "higher quality",
-                              fmt::join(quantities, " and ")));
+                  fmt::format("the tables are uncertain by {} along the motion (standard error); {}",
+                              fmt::join(quantities, " and "),
+                              tables && tables->quality == "high"
+                                  ? "they are of the highest quality: see docs/explanation/accuracy.md"
+                                  : "bake with a higher quality"));
     }
     if (errors.share_strayed() > worth_a_note) {
         notes.add("strayed", body, errors.share_strayed(),

@@ -24,7 +24,9 @@ std::string table_errors_as_text(const std::optional<LoadTables>& tables, const 
 /// used no tables.
 nlohmann::json table_errors_as_json(const std::optional<LoadTables>& tables, const TableErrorsOnPath& errors);
 
-/// Notes each mean error above 30 %, and a body that moved in directions that its bake was not planned for.
-void note_table_errors(BodyNotes& notes, const std::string& body, const TableErrorsOnPath& errors);
+/// Warns of each mean error above 30 %, with a remedy that fits the quality of the tables, and of a body that
+/// moved in directions that its bake was not planned for.
+void note_table_errors(BodyNotes& notes, const std::string& body, const std::optional<LoadTables>& tables,
+                       const TableErrorsOnPath& errors);
 
 }  // namespace samara

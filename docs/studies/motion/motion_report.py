@@ -75,12 +75,15 @@ def reference_of(scene):
 def row_of(programs, scene, model, seconds, motion):
     """The row of a motion beside its reference."""
     comparison = run([f"{programs}/samara", "compare", motion, reference_of(scene), "--json"])
-    row = [scene, model, seconds, worst_figure(comparison), comparison["motion"]["regime"], comparison["reference"]["regime"],
-           "yes" if comparison["agrees"] and comparison["regimes_agree"] else "no"]
+    regimes = comparison["motion"]["regime"], comparison["reference"]["regime"]
+    is_right = regimes[0] == regimes[1]
+    row = [scene, model, seconds, max(worst_figure(comparison), 0.0 if is_right else 1.0), *regimes,
+           "yes" if comparison["agrees"] and is_right else "no"]
     for figure in FIGURES:
         measure = comparison["measures"].get(figure) or {}
         magnitude = abs((measure.get("reference") or {}).get("value") or 0.0)
-        row += [measure.get("relative_difference"), (measure.get("reference_uncertainty") or 0.0) / magnitude if magnitude else None]
+        row += [measure.get("relative_difference"), measure["reference_uncertainty"] / magnitude
+                if magnitude and measure.get("reference_uncertainty") else None]
     return row
 
 

@@ -44,8 +44,8 @@ struct SideNote {
 std::vector<SideNote> notes_of_side(const char* which, const FallChoice& choice, const FallSet& set) {
     std::vector<SideNote> notes;
     if (set.distinct < set.falls) {
-        notes.push_back({fmt::format("only {2} of the {0}'s {1} falls differ{3} from the others", which,
-                                     set.falls, set.distinct, set.distinct == 1 ? "s" : ""),
+        notes.push_back({fmt::format("the {} has {} falls, of which {} {} distinct", which, set.falls,
+                                     set.distinct, set.distinct == 1 ? "is" : "are"),
                          "; duplicates are not counted"});
     }
     const auto& frequency = set.metrics[Metric::frequency];

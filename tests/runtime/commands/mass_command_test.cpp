@@ -70,7 +70,7 @@ TEST_F(MassCommand, RefusesWhatIsNoMassInOneLineAndLeavesTheFile) {
     const std::string before = file_content_hash(folder_ / "egg.body.h5");
     const std::vector<std::pair<std::vector<std::string>, const char*>> cases = {
         {{}, "--density or --mass"},
-        {{"--density", "1", "--mass", "1"}, "one of the two"},
+        {{"--density", "1", "--mass", "1"}, "give one of them"},
         {{"--density", "1200", "--center-of-mass", "0,0,0"}, "contradicts a uniform --density"},
         {{"--mass", "0.05", "--center-of-mass", "0,0"}, "not a vector"},
         {{"--mass", "0.05", "--center-of-mass", "0,0,0.5"}, "within the box of the shape"},

@@ -172,7 +172,7 @@ TEST(Comparison, RunsThatRepeatOneAnotherCountOnce) {
     EXPECT_EQ(comparison.motion.falls, 4);
     EXPECT_EQ(comparison.motion.distinct, 1);
     EXPECT_GT(metric(comparison, Metric::descent_speed).motion->error.value(), 0.0);
-    EXPECT_THAT(comparison.notes, Contains(HasSubstr("of the motion's 4 falls 1 differs from the others")));
+    EXPECT_THAT(comparison.notes, Contains(HasSubstr("the motion has 4 falls, of which 1 is distinct")));
 }
 
 TEST(Comparison, OtherRegimesDiffer) {

@@ -230,7 +230,7 @@ TEST(CObstacle, OutOfRangeIsRefusedByName) {
         {"keys of obstacle 'obstacle-0' are out of order: the time of key 1",
          [](samara_obstacle& o) { o.keys = unordered, o.key_count = 2; }},
         {"time", [](samara_obstacle& o) { o.keys = endless, o.key_count = 1; }},
-        {"keys of obstacle 'obstacle-0' jump: from 1 s to 1.01 s",
+        {"keys of obstacle 'obstacle-0' are too fast: from 1 s to 1.01 s",
          [](samara_obstacle& o) { o.keys = jumping, o.key_count = 2; }},
         {"obstacle 'obstacle-0' is not a valid surface",
          [](samara_obstacle& o) { o.triangles = far_corners, o.triangle_count = 1; }},

@@ -20,14 +20,14 @@ TEST(InputFile, SaysWhatIsWrongWithAPathAndNeverThrows) {
     const TemporaryFolder folder;
     EXPECT_EQ(reading_error(folder.file("a.h5", "text")), "");
     EXPECT_EQ(reading_error("/dev/null"), "is a pipe, socket or device; give a file");
-    EXPECT_EQ(reading_error(folder / "b.h5"), "does not exist");
+    EXPECT_EQ(reading_error(folder / "b.h5"), "does not exist; check the name");
     EXPECT_EQ(reading_error(folder.path()), "is a folder; give a file");
     EXPECT_EQ(reading_error(folder / "a.h5/b.h5"), "cannot be read: Not a directory");
     EXPECT_EQ(reading_error(std::string(5000, 'a')), "cannot be read: File name too long");
     std::filesystem::create_symlink("loop", folder / "loop");
     EXPECT_EQ(reading_error(folder / "loop"), "cannot be read: Too many levels of symbolic links");
     std::filesystem::create_symlink("gone", folder / "dangling");
-    EXPECT_EQ(reading_error(folder / "dangling"), "does not exist");
+    EXPECT_EQ(reading_error(folder / "dangling"), "does not exist; check the name");
 }
 
 TEST(InputFile, IsReadWholeOrRefused) {
@@ -56,7 +56,7 @@ TEST(InputFile, LargerThanTheMemoryIsRefusedBeforeItIsRead) {
     std::filesystem::resize_file(file, std::uintmax_t{1} << 42U, no_such_size);
     if (no_such_size) GTEST_SKIP() << "this file system has no file of 4 TB";
     EXPECT_THAT(test::error_of([&] { (void)read_bytes(file); }),
-                HasSubstr("sparse: its content takes 4.4e+03 GB of memory"));
+                HasSubstr("sparse: its content needs 4.4e+03 GB of memory"));
 }
 
 TEST(InputFile, KnowsWhetherALinkLeadsOutOfAFolder) {
