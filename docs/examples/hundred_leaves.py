@@ -9,8 +9,14 @@ import sys
 import bpy
 
 zip_file, body_file, picture, *blend_file = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
-bpy.ops.preferences.addon_install(filepath=zip_file)
-bpy.ops.preferences.addon_enable(module="samara")
+try:
+    if bpy.ops.preferences.addon_install(filepath=zip_file) != {"FINISHED"}:
+        raise RuntimeError("Blender cannot install it")
+    if bpy.ops.preferences.addon_enable(module="samara_addon") != {"FINISHED"}:
+        raise RuntimeError("Blender finds no module samara_addon")
+except RuntimeError as error:
+    reasons = [line for line in str(error).splitlines() if line and not line.startswith("Location:")]
+    sys.exit(f"{zip_file}: the add-on is not enabled: {reasons[-1]}")
 scene = bpy.context.scene
 for name in ("Cube", "Light", "Camera"):
     bpy.data.objects.remove(bpy.data.objects[name])

@@ -14,8 +14,14 @@ import bpy
 from mathutils import Vector
 
 zip_file, body_file, roof_file, window_picture, panel_picture = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
-bpy.ops.preferences.addon_install(filepath=zip_file)
-bpy.ops.preferences.addon_enable(module="samara")
+try:
+    if bpy.ops.preferences.addon_install(filepath=zip_file) != {"FINISHED"}:
+        raise RuntimeError("Blender cannot install it")
+    if bpy.ops.preferences.addon_enable(module="samara_addon") != {"FINISHED"}:
+        raise RuntimeError("Blender finds no module samara_addon")
+except RuntimeError as error:
+    reasons = [line for line in str(error).splitlines() if line and not line.startswith("Location:")]
+    sys.exit(f"{zip_file}: the add-on is not enabled: {reasons[-1]}")
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.view.ui_scale = 1.1
 

@@ -27,8 +27,14 @@ for o in list(bpy.data.objects):
 # 24 frames a second, before the import, which places the motion's keys by it. Shown at 12 it is half the speed.
 scene.render.fps = 24
 scene.frame_start, scene.frame_end = 30, 100
-bpy.ops.preferences.addon_install(filepath=zip_file)
-bpy.ops.preferences.addon_enable(module="samara")
+try:
+    if bpy.ops.preferences.addon_install(filepath=zip_file) != {"FINISHED"}:
+        raise RuntimeError("Blender cannot install it")
+    if bpy.ops.preferences.addon_enable(module="samara_addon") != {"FINISHED"}:
+        raise RuntimeError("Blender finds no module samara_addon")
+except RuntimeError as error:
+    reasons = [line for line in str(error).splitlines() if line and not line.startswith("Location:")]
+    sys.exit(f"{zip_file}: the add-on is not enabled: {reasons[-1]}")
 bpy.ops.import_scene.gltf(filepath=motion)
 imported = {o.name: o for o in bpy.context.selected_objects if o.type == "MESH"}
 draw = random.Random(7)

@@ -1,5 +1,7 @@
 #include "support/blender_addon.hpp"
 
+#include <cstdlib>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +16,9 @@ namespace {
 
 nlohmann::json found_by(const std::vector<std::string>& blender, const std::vector<std::string>& task) {
     const TemporaryFolder folder;
-    std::vector<std::string> words = {"env",
+    std::string modules = folder.file("python/samara/__init__.py", "").parent_path().parent_path().string();
+    if (const char* others = std::getenv("PYTHONPATH")) modules += fmt::format(":{}", others);
+    std::vector<std::string> words = {"env", fmt::format("PYTHONPATH={}", modules),
                                       fmt::format("BLENDER_USER_SCRIPTS={}", (folder / "scripts").string()),
                                       fmt::format("BLENDER_USER_CONFIG={}", (folder / "config").string()),
                                       fmt::format("TMPDIR={}", folder.path().string())};

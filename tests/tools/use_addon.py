@@ -25,12 +25,12 @@ from addon_tasks import files, flights, surroundings, window  # noqa: E402
 zip_file, task, *arguments = sys.argv[sys.argv.index("--") + 1 :]
 
 bpy.ops.preferences.addon_install(filepath=zip_file)
-bpy.ops.preferences.addon_enable(module="samara")
-assert addon_utils.check("samara")[1], "the add-on is not enabled"
+bpy.ops.preferences.addon_enable(module="samara_addon")
+assert addon_utils.check("samara_addon")[1], "the add-on is not enabled"
 
 
 def finish(found):
-    bpy.ops.preferences.addon_disable(module="samara")
+    bpy.ops.preferences.addon_disable(module="samara_addon")
     print("\nFOUND " + json.dumps(found), flush=True)
 
 

@@ -5,6 +5,7 @@
 
 #include "blender/blender_poses.hpp"
 #include "paths.hpp"
+#include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/version.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
@@ -31,6 +32,7 @@ using test::use_addon;
 using test::use_addon_in_window;
 using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
@@ -40,10 +42,28 @@ std::string scene_of(const json& starts, const std::string& body_file) {
            bodies_of(starts, body_file);
 }
 
-TEST(BlenderAddon, HasTheLibrarysVersion) {
+TEST(BlenderAddon, HasTheLibrarysVersionBesideAPythonPackageNamedSamara) {
     const json found = use_addon({"version"});
     EXPECT_EQ(found["library"], version);
     EXPECT_EQ(found["bl_info"], version);
+    EXPECT_THAT(found["package"].get<std::string>(), EndsWith("/python/samara/__init__.py"));
+}
+
+TEST(BlenderAddon, ExamplesFailInOneLineWhereItIsNotEnabled) {
+    const TemporaryFolder folder;
+    (void)folder.file("samara_addon/__init__.py", "");  // not the add-on, and before it in Python's path
+    for (const std::string name : {"hundred_leaves", "roof", "roof_film", "panel_pictures"}) {
+        const int status = run_subprocess(
+            {"env", "PYTHONPATH=" + folder.path().string(),
+             "BLENDER_USER_SCRIPTS=" + (folder / "scripts").string(), "blender", "-b", "--factory-startup",
+             "--python", SAMARA_SOURCE_DIRECTORY "/docs/examples/" + name + ".py", "--", SAMARA_BLENDER_ZIP,
+             "motion", "picture", "1", "2"},
+            folder / "log");
+        EXPECT_EQ(status, 1) << name;
+        EXPECT_THAT(read_bytes(folder / "log"),
+                    HasSubstr(SAMARA_BLENDER_ZIP ": the add-on is not enabled: AttributeError: module "
+                                                 "'samara_addon' has no attribute 'bl_info'\n"));
+    }
 }
 
 TEST(BlenderAddon, KeysThreeObjectsWithTheMotionOfSamaraSimulate) {

@@ -70,7 +70,7 @@ class CStructsTest(unittest.TestCase):
         self.assertEqual(written._fields_, wanted, struct)
 
     def test_the_add_on_has_the_fields_of_the_header(self):
-        library = module("runtime", "blender", "samara", "samara_library.py")
+        library = module("runtime", "blender", "samara_addon", "samara_library.py")
         self.check(library.Settings, "samara_settings")
         self.check(library.BodyGroup, "samara_body_group")
         self.check(library.Obstacle, "samara_obstacle")
@@ -78,7 +78,7 @@ class CStructsTest(unittest.TestCase):
         self.assertEqual(library.POSE_SIZE, ctypes.sizeof(type("Pose", (ctypes.Structure,), {"_fields_": fields_of("samara_pose")})) // 8)
 
     def test_the_add_on_has_the_functions_of_the_header(self):
-        library = module("runtime", "blender", "samara", "samara_library.py")
+        library = module("runtime", "blender", "samara_addon", "samara_library.py")
         declared = functions()
         self.assertGreater(len(declared), 40)
         written = {name: (result, list(arguments)) for name, (result, arguments) in library._PLAIN.items()}
@@ -93,7 +93,7 @@ class CStructsTest(unittest.TestCase):
                     self.assertTrue(fits(argument, kind), f"{argument} for {kind}")
 
     def test_the_add_on_has_the_constants_of_the_header(self):
-        library = module("runtime", "blender", "samara", "samara_library.py")
+        library = module("runtime", "blender", "samara_addon", "samara_library.py")
         declared = dict(re.findall(r"SAMARA_((?:LOADS|TURBULENCE)_\w+) = (\d+)", header()))
         written = {name: value for name, value in vars(library).items() if re.match("LOADS_|TURBULENCE_", name)}
         self.assertGreaterEqual(len(written), 5)
@@ -106,7 +106,7 @@ class CStructsTest(unittest.TestCase):
         self.assertEqual([name for name, _ in fields_of("samara_mass_properties")], ["mass", "center_of_mass", "inertia"])
 
     def test_the_add_on_is_of_the_version_of_the_header(self):
-        library = module("runtime", "blender", "samara", "samara_library.py")
+        library = module("runtime", "blender", "samara_addon", "samara_library.py")
         self.assertEqual(library.API_VERSION, int(re.search(r"#define SAMARA_API_VERSION (\d+)", header()).group(1)))
 
     def test_the_example_has_the_fields_of_the_header(self):

@@ -10,7 +10,7 @@ from .steps import add_bodies, empty_scene, run, scene
 def bake(program, quality):
     empty_scene()
     found = {}
-    settings = bpy.context.preferences.addons["samara"].preferences
+    settings = bpy.context.preferences.addons["samara_addon"].preferences
     bpy.ops.mesh.primitive_plane_add(size=0.02)
     settings.program = program + "-not"
     found["no_program"] = run(bpy.ops.samara.bake, quality=quality)
@@ -25,9 +25,9 @@ def bake(program, quality):
     o.modifiers.new("smooth", "SUBSURF").levels = 1
     found["error"] = run(bpy.ops.samara.bake, quality=quality)
 
-    from samara import samara_library
-    from samara.bake import mesh_corners
-    from samara.bake_job import BakeJob, bake_command
+    from samara_addon import samara_library
+    from samara_addon.bake import mesh_corners
+    from samara_addon.bake_job import BakeJob, bake_command
 
     found["file"] = o.samara.body_file
     body = samara_library.body_of_file(o.samara.body_file)
@@ -73,8 +73,8 @@ def crowd(file, count, frames):
     scene.samara.fluid = "AIR"
     scene.frame_end = int(frames)
 
-    from samara.flight import FlightJob
-    from samara.simulate import requests_of
+    from samara_addon.flight import FlightJob
+    from samara_addon.simulate import requests_of
 
     start, start_cpu = time.perf_counter(), time.process_time()
     FlightJob(requests_of(bpy.context, objects)).wait()
@@ -96,9 +96,14 @@ def glb(motion):
 
 
 def version():
-    from samara import bl_info, samara_library
+    import samara
+    from samara_addon import bl_info, samara_library
 
-    return {"library": samara_library.version(), "bl_info": ".".join(map(str, bl_info["version"]))}
+    return {
+        "library": samara_library.version(),
+        "bl_info": ".".join(map(str, bl_info["version"])),
+        "package": samara.__file__,
+    }
 
 
 TASKS = (bake, render, crowd, glb, version)

@@ -171,7 +171,7 @@ def deltas(file):
 
 def ended(file):
     """How many flights go on for a body that went off Live, and for one that was removed."""
-    from samara import live
+    from samara_addon import live
 
     empty_scene()
     scene.frame_end = 100000
@@ -276,7 +276,7 @@ def meeting(file):
 
 def cache(file, folder):
     """Live from the disk: in a saved file that is opened again, and with a flight that is damaged."""
-    from samara import flight, live
+    from samara_addon import flight, live
 
     objects = three_bodies(file)
     bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "scene.blend"))
@@ -344,7 +344,7 @@ def errors(good, newer, cut):
     o.samara.body_file = good
     found["good"] = run(bpy.ops.samara.simulate)
 
-    from samara import samara_library
+    from samara_addon import samara_library
 
     samara_library.library.cache_clear()
     place, samara_library.LIBRARY = samara_library.LIBRARY, samara_library.LIBRARY + ".not"
@@ -357,7 +357,7 @@ def errors(good, newer, cut):
 def scrub(file, count, frames, folder):
     """Seconds of many bodies live over ground and a roof of 2,000 triangles: until they are live, until all is flown, and of
     the slowest change of a frame: while it is flown, after that, and in the file opened anew."""
-    from samara import live
+    from samara_addon import live
 
     empty_scene()
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=32, y_subdivisions=32, size=2.0, location=(0.0, 0.0, -1.5), rotation=(0.3, 0.0, 0.0))

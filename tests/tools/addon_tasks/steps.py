@@ -62,7 +62,7 @@ def three_bodies(file):
 
 def starts(objects):
     """What the scene of `samara simulate` needs to know."""
-    from samara.conventions import noise_name
+    from samara_addon.conventions import noise_name
 
     bpy.context.view_layer.update()
     return {

@@ -42,7 +42,7 @@ def press_escape():
 
 def simulate_in_window(file):
     """The button that simulates: Esc half way, then to its end, then what it refuses."""
-    from samara.simulate import SAMARA_OT_simulate as operator
+    from samara_addon.simulate import SAMARA_OT_simulate as operator
 
     objects = three_bodies(file)
     scene.frame_set(31)
@@ -78,8 +78,8 @@ def simulate_in_window(file):
 
 def live_in_window(file):
     """Live while the flights are slow: a late frame is asked for, waited for, and flown to."""
-    from samara import live
-    from samara.samara_library import Simulation
+    from samara_addon import live
+    from samara_addon.samara_library import Simulation
 
     objects = three_bodies(file)
     advance_to = Simulation.advance_to
@@ -112,7 +112,7 @@ def live_in_window(file):
 
 def bake_in_window(program, folder):
     """The button that bakes: Esc half way, an end with an error, then to its end."""
-    from samara.bake import SAMARA_OT_bake as operator
+    from samara_addon.bake import SAMARA_OT_bake as operator
 
     def program_that(name, text):
         path = os.path.join(folder, name)
@@ -124,7 +124,7 @@ def bake_in_window(program, folder):
     empty_scene()
     bpy.ops.mesh.primitive_uv_sphere_add(radius=0.02)
     body = bpy.context.object.samara
-    settings = bpy.context.preferences.addons["samara"].preferences
+    settings = bpy.context.preferences.addons["samara_addon"].preferences
     process_file = os.path.join(folder, "process")
     watch = Watch(operator)
     settings.program = program_that("slow", f"echo 'case 3 of 10' >&2\necho $$ > '{process_file}'\nexec sleep 600\n")
