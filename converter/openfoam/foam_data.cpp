@@ -62,8 +62,8 @@ class DataScan {
 
     [[nodiscard]] Error error(const std::string& what) const {
         const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size()));
-        return Error(fmt::format("{}:{}: {}, which is not allowed there; remove it, or solve the case again",
-                                 path_.string(), 1 + std::count(text_.begin(), end, '\n'), what));
+        return Error(fmt::format("{}:{}: {}, which is not allowed there", path_.string(),
+                                 1 + std::count(text_.begin(), end, '\n'), what));
     }
 
     /// Passes over blanks and comments; returns whether anything is left.
