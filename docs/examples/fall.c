@@ -1,9 +1,10 @@
 /* Drops three bodies in water and prints where they are, 24 times a second.
  *
+ *   samara bodies ellipsoid -o ellipsoid.body.h5
  *   cc -std=c99 fall.c -lsamara -o fall
- *   ./fall rubber.body.h5
+ *   ./fall ellipsoid.body.h5
  *
- * Half-way the state is kept; at the end the second half is played again from there, and comes out the same.
+ * Places are those of the shape's origin. Half-way the state is kept; at the end the second half is played again from there, and comes out the same.
  */
 #include <samara.h>
 #include <stdio.h>

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Drops a body in water and prints where it is, 24 times a second: the C interface without a compiler.
 
-    fall.py LIBRARY NAME.body.h5      LIBRARY: libsamara.so, where it is installed
+    fall.py LIBRARY NAME.body.h5      LIBRARY: libsamara.so, of the package /usr/lib/libsamara.so
+
+Any Python 3 will do. Places are those of the shape's origin.
 """
 
 import ctypes

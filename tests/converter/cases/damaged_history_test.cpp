@@ -115,7 +115,7 @@ TEST_F(DamagedHistory, AFileOfTheLastRunThatIsEmptiedOrMissingIsNamed) {
         const std::string whole = text_of(file);
         for (const std::string& left : {std::string(), whole.substr(0, whole.find("\n15\t") + 1)}) {
             folder_.write(file, left);
-            EXPECT_THAT(error(), HasSubstr(" at the time 15, which ")) << file;
+            EXPECT_THAT(error(), HasSubstr(" at the time 15, but ")) << file;
             EXPECT_THAT(error(), HasSubstr((folder_.path() / name).parent_path().parent_path().string()));
         }
         std::filesystem::remove(folder_.path() / file);
