@@ -165,7 +165,7 @@ def summary(rows):
         if judged:
             worst = [float(row["worst_error"]) for row in judged]
             low, middle, high = statistics.quantiles(worst if len(worst) > 1 else 2 * worst, n=4, method="inclusive")
-        lines.append([model, f"{seconds:.2g}"] + ([
+        lines.append([model, f"{seconds:.2g}" if seconds < 100 else f"{seconds:.0f}"] + ([
             f"{100 * middle:.0f} %", f"{100 * low:.0f} to {100 * high:.0f} %", f"{100 * statistics.mean(descent):.0f} %",
             f"{sum(row['regime'] == row['regime_reference'] for row in judged)} of {len(judged)}",
             f"{sum(row['agrees'] == 'yes' for row in judged)} of {len(judged)}"] if judged else ["the reference"] + ["-"] * 4))
