@@ -25,9 +25,7 @@ LARGEST_COPY = 3_000_000  # bytes of a linked file that the site carries
 
 def pages():
     """All pages, as paths in the project."""
-    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, check=True,
-                            capture_output=True, text=True)
-    return sorted(page for page in listed.stdout.split() if page.startswith("docs/") or "/" not in page)
+    return sorted(glob.glob("docs/**/*.md", root_dir=ROOT, recursive=True) + glob.glob("*.md", root_dir=ROOT))
 
 
 def place_of(path):
