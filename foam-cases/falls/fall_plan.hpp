@@ -22,7 +22,8 @@ struct FallModel {
     /// Returns the largest stable share of a new acceleration in a step, for a body with this
     /// largest_inertia_ratio().
     [[nodiscard]] double acceleration_relaxation(double inertia_ratio) const;
-    /// Returns the time step (in L/U) for a body with this largest_inertia_ratio() (docs/explanation/full-cfd.md).
+    /// Returns the time step (in L/U) for a body with this largest_inertia_ratio()
+    /// (docs/explanation/full-cfd.md).
     [[nodiscard]] double time_step(double inertia_ratio) const;
 };
 

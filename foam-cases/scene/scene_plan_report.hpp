@@ -12,9 +12,9 @@ namespace samara {
 /// Returns the cost of a grid as JSON: directions, cases and rounded CPU seconds.
 nlohmann::json cost_as_json(const GridCost& cost);
 
-/// Returns the progress of a bake for a scene as JSON (docs/explanation/what-a-scene-needs.md): goal, rounds with their metrics and the
-/// uncertainty by the tables, the reason to stop, and the cost of the whole grid. It does not depend on where
-/// and how fast the cases were solved.
+/// Returns the progress of a bake for a scene as JSON (docs/explanation/what-a-scene-needs.md): goal, rounds
+/// with their metrics and the uncertainty by the tables, the reason to stop, and the cost of the whole grid.
+/// It does not depend on where and how fast the cases were solved.
 nlohmann::json scene_plan_as_json(const SceneGoal& goal, const ScenePlan& plan);
 
 /// Returns the last round as a line of text.

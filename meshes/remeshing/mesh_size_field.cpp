@@ -19,8 +19,8 @@ namespace {
 
 // Sizes are graded within this part of the body's reach from an edge.
 constexpr double edge_reach = 0.25;
-// How the size varies over a body (docs/reference/shapes.md); the values were found by trial, for flat and curved
-// triangles.
+// How the size varies over a body (docs/reference/shapes.md); the values were found by trial, for flat and
+// curved triangles.
 constexpr double curvature_power = 0.4;    // of the radius of the strongest curvature
 constexpr double smallest = 0.2;           // by curvature, relative to the largest size
 constexpr double smallest_at_edges = 0.3;  // relative to the largest size

@@ -75,11 +75,12 @@ PKG_CONFIG_PATH=$library pkg-config --modversion samara | grep -q '^[0-9]'
 ln -s "$source_folder/docs" "$work/docs"
 ln -s installed "$work/DIR"
 ln -s installed "$work/samara"
-grep -hE '^    cc ' "$source_folder/docs/reference/c.md" "$source_folder/docs/tutorials/engine.md" >"$work/lines"
-[ "$(wc -l <"$work/lines")" = 3 ]
+cp "$source_folder/docs/examples/fall.c" "$work"
+grep -hE '^cc .*DIR/' "$source_folder/docs/reference/c.md" "$source_folder/docs/tutorials/engine.md" >"$work/lines"
+[ "$(wc -l <"$work/lines")" = 2 ]
 while read -r line; do
   rm -f "$work/fall"
-  (cd "$work" && bash -c "$line")
+  (cd "$work" && library=$work/DIR/lib bash -c "$line")
   (cd / && env -u LD_LIBRARY_PATH "$work/fall" "$source_folder/runtime/bodies/leaf.body.h5") | grep -q '^1.0000 s  body 2'
 done <"$work/lines"
 # The wheel, by the same build folder, where its backend is installed (./dev test does so).

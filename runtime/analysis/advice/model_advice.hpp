@@ -72,7 +72,8 @@ void apply(const ModelAdvice& advice, Scene& scene);
 /// every line ended.
 std::string as_text(const ModelAdvice& advice);
 
-/// Returns the advice as a JSON object in SI units and radians: docs/explanation/what-a-scene-needs.md lists its keys.
+/// Returns the advice as a JSON object in SI units and radians: docs/explanation/what-a-scene-needs.md lists
+/// its keys.
 nlohmann::json as_json(const ModelAdvice& advice);
 
 }  // namespace samara

@@ -8,8 +8,8 @@
 
 namespace samara {
 
-/// Returns a comparison as a JSON object in SI units and radians; docs/reference/output.md lists its keys. Unknown
-/// values are null.
+/// Returns a comparison as a JSON object in SI units and radians; docs/reference/output.md lists its keys.
+/// Unknown values are null.
 nlohmann::json as_json(const Comparison& comparison);
 
 /// Returns a comparison as text: a table and a few lines, each ended; angles in degrees.

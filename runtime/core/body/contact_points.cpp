@@ -15,8 +15,8 @@ namespace {
 // has edges, one of more sides is round.
 constexpr double sharp = 0.6;
 // The width over which facets are smoothed, over the bounding radius, and so the most that a round side
-// stands off its place (docs/reference/scene-file.md#ground). The facets of a sphere of 1280 triangles reach 0.4 %
-// inwards.
+// stands off its place (docs/reference/scene-file.md#ground). The facets of a sphere of 1280 triangles reach
+// 0.4 % inwards.
 constexpr double smoothing = 0.01;
 constexpr int directions = 512;         // the directions in which corners are sought: 9 degrees apart
 constexpr int subdivisions = 16;        // of the map of round points

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int subdivisions = 8;
 constexpr double blasius_friction = 1.33;  // of a plate, relative to the area of each side: times Re^-1/2
-// About the rms differences from CFD over the directions of three bodies (docs/explanation/loads-without-a-bake.md).
+// About the rms differences from CFD over the directions of three bodies
+// (docs/explanation/loads-without-a-bake.md).
 constexpr double error_of_force = 0.3;
 constexpr double error_of_moment = 0.3;
 

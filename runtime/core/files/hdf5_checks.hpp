@@ -9,7 +9,8 @@
 
 namespace samara {
 
-// Checks of what an HDF5 file claims about its content, before any of the content is read (docs/explanation/security.md).
+// Checks of what an HDF5 file claims about its content, before any of the content is read
+// (docs/explanation/security.md).
 
 /// Returns the number of values of a shape; nothing where it exceeds 64 bits.
 std::optional<hsize_t> value_count(const std::vector<hsize_t>& shape);

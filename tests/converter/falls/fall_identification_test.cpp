@@ -297,7 +297,8 @@ TEST_F(FallIdentification, RejectsAFallWhoseStepsAreUneven) {
     record.fall.name = "fall_07";
     record.samples.erase(record.samples.begin() + 500);
     EXPECT_EQ(error_with(body_, record),
-              "fall_07: the fall's steps are not equal: 0.01 L/U at first, but different at 5.02; solve the fall again");
+              "fall_07: the fall's steps are not equal: 0.01 L/U at first, but different at 5.02; solve the "
+              "fall again");
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ struct PeerModel {
 /// bodies under water (ACM Trans. Graph. 31(4), 2012; how they scale it was not verified in the source).
 PeerModel linear_drag_model();
 
-/// The paper's equations without its noise: eq. 2 to 4 with the signs put right (docs/explanation/model.md), and the
-/// loads of eq. 5 as they are printed, whose coefficients are the user's.
+/// The paper's equations without its noise: eq. 2 to 4 with the signs put right (docs/explanation/model.md),
+/// and the loads of eq. 5 as they are printed, whose coefficients are the user's.
 PeerModel printed_model();
 
 /// The planar equations of a falling plate by A. Andersen, U. Pesavento and Z. J. Wang (J. Fluid Mech. 541,
