@@ -12,7 +12,7 @@ namespace samara {
 inline constexpr double motion_onset = 0.03;
 
 /// The distance over which transport forms behind a body that starts in fluid at rest, relative to the body's
-/// extent along its path (docs/explanation/moving-loads.md#a-wake-that-forms; chosen in docs/studies/falls,
+/// extent along its path (docs/explanation/moving-loads.md; chosen in docs/studies/falls,
 /// "The start").
 inline constexpr double wake_formation_lengths = 1.0;
 
@@ -26,7 +26,7 @@ inline constexpr double settling_length_of_falls = 20.0;
 inline constexpr double settling_length_of_alike_axes = 5.0;
 
 /// The coefficients of the loads of a free body beyond the tabulated ones of a steady translation
-/// (docs/explanation/moving-loads.md#the-terms). None but f changes a steady translation without rotation.
+/// (docs/explanation/moving-loads.md). None but f changes a steady translation without rotation.
 /// Body axes about the centroid of the volume; rho is the fluid's density, v and omega are relative to the
 /// fluid, H = sqrt(|v|^2 + c^2 |omega|^2). Q is the tip speed c |omega| of the body's own rotation: the
 /// effect of turbulence is in the table already. In still fluid both rotations are one.

@@ -8,7 +8,7 @@
 
 namespace samara {
 
-/// The sources of the standard errors of load tables (docs/explanation/steady-loads.md#errors-of-the-tables).
+/// The sources of the standard errors of load tables (docs/explanation/steady-loads.md).
 enum class ErrorSource { tail, symmetry, mesh, closure, interpolation };
 constexpr std::size_t error_source_count = 5;
 

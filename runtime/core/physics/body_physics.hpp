@@ -22,7 +22,7 @@ enum class Langevin { sampled_turbulence, body_velocity, wake };
 enum class Dynamic { of_body, by_default, none };
 
 /// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body
-/// (docs/explanation/steady-loads.md#loads-by-coefficients).
+/// (docs/explanation/steady-loads.md).
 struct CoefficientLoads {
     double drag_coefficient = 1.0;         ///< C_d of eq. 5
     double lift_coefficient = 0.0;         ///< C_l of eq. 5
