@@ -178,12 +178,13 @@ class Body:
 
     def __init__(self, path):
         self.handle = c_void_p()
+        self._free = library().samara_body_free  # of the library that made it
         self.path = path
         _call("samara_body_load", os.fsencode(path), byref(self.handle))
 
     def __del__(self):
         if self.handle:
-            library().samara_body_free(self.handle)
+            self._free(self.handle)
 
     @property
     def name(self):
@@ -255,11 +256,12 @@ class Simulation:
 
     def __init__(self, settings):
         self.handle = c_void_p()
+        self._free = library().samara_simulation_free  # of the library that made it
         _call("samara_simulation_create", byref(settings), byref(self.handle))
 
     def __del__(self):
         if self.handle:
-            library().samara_simulation_free(self.handle)
+            self._free(self.handle)
 
     def add_obstacle(self, name, vertices, triangles, friction, keys):
         """Adds an obstacle; to be called before bodies are added. vertices: (n, 3) doubles; triangles: (m, 3) int32; keys: (k, 8)

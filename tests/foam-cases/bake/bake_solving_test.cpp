@@ -348,7 +348,7 @@ turbulence = "none"
 
     const test::ProgramRun mixed = bake("scene.toml -o bodies --density 1200");
     EXPECT_EQ(mixed.status, 1);
-    EXPECT_THAT(mixed.error, HasSubstr("drop --density"));
+    EXPECT_THAT(mixed.error, HasSubstr("leave --density out"));
 }
 
 }  // namespace
