@@ -19,7 +19,6 @@ namespace {
 using test::degree;
 using test::error_of;
 using test::TemporaryFolder;
-using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
