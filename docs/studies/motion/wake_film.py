@@ -12,7 +12,6 @@ CFD. Run from the project's folder; needs numpy, scipy, matplotlib and Pillow.
 import base64
 import glob
 import json
-import math
 import os
 import sys
 import tempfile
