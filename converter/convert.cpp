@@ -64,12 +64,27 @@ std::string provenance_of(const std::vector<SolvedCase>& cases) {
     return list.dump();
 }
 
+/// Returns the mean that k and epsilon of the cases are. Throws Error where they differ.
+TurbulenceMean common_mean(const std::vector<SolvedCase>& cases) {
+    const SolvedCase* first = nullptr;
+    for (const SolvedCase& solved : cases) {
+        if (!solved.turbulence_mean) continue;
+        if (first == nullptr) first = &solved;
+        if (solved.turbulence_mean == first->turbulence_mean) continue;
+        throw Error(fmt::format(
+            "k and epsilon of {} are of the mean '{}', those of {} of '{}': tables hold one of them",
+            first->name, name_of(*first->turbulence_mean), solved.name, name_of(*solved.turbulence_mean)));
+    }
+    return first == nullptr ? TurbulenceMean::near_wake : *first->turbulence_mean;
+}
+
 LoadTables make_tables(const CasePlan& plan, const Symmetry& symmetry, Conversion& conversion) {
     LoadTables tables;
     tables.reference_length = plan.reference_length;
     tables.subdivisions = plan.subdivisions;
     tables.axes = plan.axes;
     tables.quality = plan.quality;
+    tables.turbulence_mean = common_mean(conversion.cases);
     conversion.sampling_errors = fill_tables(tables, symmetry, conversion.cases, main_reynolds_number(plan),
                                              conversion.body.surface_loads);
     tables.provenance = provenance_of(conversion.cases);

@@ -36,10 +36,12 @@ struct BakeOptions {
     std::string cluster;
     std::string quality = "preview";
     std::string loads;  ///< empty: the default closure of the quality
+    std::string turbulence = "kEpsilon";
     std::string falls;  ///< empty: the closure of the loads
     double fall_step = 1.0;
     std::string inflow = "still";
     int probes = 0;
+    bool turbulence_only = false;
     bool whole_grid = false;
     double tolerance = SceneBakeOptions().tolerance;
     double budget = 0.0;
@@ -49,10 +51,23 @@ struct BakeOptions {
 
 constexpr const char* no_falls = "none";
 
+/// Returns the quality of a bake of k and epsilon alone: by default that of the tables.
+BakeQuality quality_of_turbulence(const BakeOptions& options, bool is_given) {
+    const Body body = read_body_file(options.input);
+    const std::string own = body.tables ? body.tables->quality : "";
+    const std::vector<std::string> names = bake_quality_names();
+    const bool is_known = std::ranges::find(names, own) != names.end();
+    BakeQuality quality = bake_quality(is_given || !is_known ? options.quality : own);
+    quality.loads_closure = quality.turbulence_closure = closure_of(options.turbulence);
+    quality.falls = 0;
+    return quality;
+}
+
 BakeQuality quality_of(const BakeOptions& options) {
     const Closure loads =
         options.loads.empty() ? usual_loads_closure(options.quality) : closure_of(options.loads);
-    BakeQuality quality = with_loads_by(loads, bake_quality(options.quality));
+    BakeQuality quality = with_turbulence_by(closure_of(options.turbulence),
+                                             with_loads_by(loads, bake_quality(options.quality)));
     quality.fall_step = options.fall_step;
     if (options.falls.empty()) return quality;
     if (options.falls != no_falls) return with_falls_by(closure_of(options.falls), std::move(quality));
@@ -78,7 +93,7 @@ void require_falls(const BakeOptions& options, const Arguments& arguments) {
     }
 }
 
-BakeRequest request_for_shape(const BakeOptions& options, bool density_is_given) {
+BakeRequest request_for_shape(const BakeOptions& options, const Arguments& arguments) {
     if (options.probes > 0 && fs::path(options.output).extension() != ".csv") {
         throw Error(
             fmt::format("{}: the output of --probes is a table of cases; name it NAME.csv", options.output));
@@ -92,14 +107,33 @@ BakeRequest request_for_shape(const BakeOptions& options, bool density_is_given)
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
     // A body file may have its own mass.
-    if (density_is_given || !is_body_file_name(options.input) || !read_body_file(options.input).mass) {
+    if (arguments.given("--density") || !is_body_file_name(options.input) ||
+        !read_body_file(options.input).mass) {
         request.mass.density = options.density;
     }
     request.other_density = options.other_density;
-    request.quality = quality_of(options);
+    request.turbulence_only = options.turbulence_only;
+    request.quality = options.turbulence_only ? quality_of_turbulence(options, arguments.given("--quality"))
+                                              : quality_of(options);
     request.inflow = inflow_of(options);
     request.probes = options.probes;
     return request;
+}
+
+/// Throws where --turbulence-only has no tables to replace, or stands beside options of loads.
+void require_for_turbulence_only(const BakeOptions& options, const Arguments& arguments) {
+    if (!options.turbulence_only) return;
+    if (!is_body_file_name(options.input)) {
+        throw Error(
+            fmt::format("{}: --turbulence-only needs a baked body file, NAME.body.h5; bake the shape whole",
+                        options.input));
+    }
+    for (const char* option : {"--fluid", "--density", "--density-to", "--loads", "--falls", "--fall-step"}) {
+        if (!arguments.given(option)) continue;
+        throw Error(fmt::format(
+            "{}: with --turbulence-only loads and Reynolds numbers stay those of the body file; leave {} out",
+            options.input, option));
+    }
 }
 
 bool is_scene(const std::string& input) {
@@ -120,13 +154,15 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
             }
         }
         require_falls(options, arguments);
-        return {request_for_shape(options, arguments.given("--density"))};
+        require_for_turbulence_only(options, arguments);
+        return {request_for_shape(options, arguments)};
     }
-    for (const char* option : {"--fluid", "--density", "--density-to", "--scale"}) {
+    for (const char* option : {"--fluid", "--density", "--density-to", "--scale", "--turbulence-only"}) {
         if (arguments.given(option)) {
-            throw Error(
-                fmt::format("{}: the scene defines fluid, density and scale of its bodies; leave {} out",
-                            options.input, option));
+            throw Error(fmt::format(
+                "{}: a scene defines fluid, density and scale of its bodies, which are baked whole; "
+                "leave {} out",
+                options.input, option));
         }
     }
     if (options.probes > 0) {
@@ -210,7 +246,10 @@ int run(int argc, const char* const* argv) {
                      "meshes and Reynolds numbers; high: four meshes and three closures");
     arguments.choice("--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
                      "closure for forces, moments and falls; by default kOmegaSSTLM at standard and high, "
-                     "kEpsilon at lower qualities. k and epsilon always come from separate kEpsilon cases");
+                     "kEpsilon at lower qualities");
+    arguments.choice(
+        "--closure", options.turbulence, turbulence_closures(),
+        "closure for k and epsilon, which have cases of their own unless the loads have the same");
     arguments.choice("--falls", options.falls, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM", no_falls},
                      "closure for the falls; by default that of the loads. The mesh is that of samara "
                      "validate, except for kEpsilon with loads by kEpsilon. none: no falls; the body gets "
@@ -222,6 +261,10 @@ int run(int argc, const char* const* argv) {
     arguments.choice(
         "--inflow", options.inflow, {"still", "paper"},
         "turbulence of the ambient fluid: still: 1 % intensity; paper: eq. 13 of the paper, 100 %");
+    arguments.flag(
+        "--turbulence-only", options.turbulence_only,
+        "solve k and epsilon alone, and replace them in the tables of INPUT, a baked body file: for "
+        "files of earlier versions, or another --closure");
     arguments.option("--probes", options.probes,
                      "instead of tables, solve this many cases between the tables' nodes, to test tables "
                      "with; the output is NAME.csv",

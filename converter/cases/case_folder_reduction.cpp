@@ -89,9 +89,9 @@ FolderReduction reduce_folder(const std::filesystem::path& folder, const CasePla
     }
     if (!missing.empty() && unsolved == UnsolvedCases::reject) throw not_solved(folder, plan, missing);
 
-    Shells shells;
+    MeshZones zones;
     for (const PlannedCase* const planned : solved) {
-        reduction.cases.push_back(reduce_case(folder, plan, *planned, shells));
+        reduction.cases.push_back(reduce_case(folder, plan, *planned, zones));
         if (progress) progress(reduction.cases.size(), solved.size());
     }
     return reduction;

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "converter/cases/shell_means.hpp"
+#include "converter/cases/turbulence_means.hpp"
 #include "converter/openfoam/foam_dictionary.hpp"
 #include "samara/core/base/error.hpp"
 

@@ -44,6 +44,10 @@ Closure closure_of(std::string_view name) {
     return found == std::end(closures) ? Closure::other : found->first;
 }
 
+bool solves_for_omega(Closure closure) {
+    return name_of(closure).starts_with("kOmega");
+}
+
 namespace {
 
 Error error(const std::filesystem::path& file, const std::string& what) {

@@ -34,6 +34,9 @@ std::string_view name_of(Closure closure);
 /// Returns the closure with OpenFOAM's word `name`.
 Closure closure_of(std::string_view name);
 
+/// Whether the closure solves for omega in place of epsilon.
+bool solves_for_omega(Closure closure);
+
 /// The purpose that a case is solved for.
 enum class CasePurpose {
     table,    ///< its loads go into the table

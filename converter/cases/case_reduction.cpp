@@ -88,10 +88,10 @@ Tail tail_of(const CaseSource& source, const QuantityHistory& history, double st
 void require_agreement(const CaseSource& source, const std::string& field, double in_fields,
                        double in_history, double time) {
     if (!(std::abs(in_fields - in_history) <= largest_disagreement * std::abs(in_history))) {
-        throw source.error(
-            fmt::format("the mean {} over the shell at the time {:.10g} is {:.6g} in the fields and {:.6g} "
-                        "in postProcessing/shell: they are from different runs",
-                        field, time, in_fields, in_history));
+        throw source.error(fmt::format(
+            "the mean {} over the near wake at the time {:.10g} is {:.6g} in the fields and {:.6g} "
+            "in postProcessing: they are from different runs",
+            field, time, in_fields, in_history));
     }
 }
 
@@ -101,7 +101,7 @@ std::size_t place_of(const CaseSource& source, const QuantityHistory& history, d
         if (std::abs(history.times[i] - time) <= 1e-6 * time) return i;
     }
     throw source.error(fmt::format(
-        "the fields were last written at the time {:.10g}, which is missing in postProcessing/shell", time));
+        "the fields were last written at the time {:.10g}, which is missing in the history of k", time));
 }
 
 fs::path mesh_folder(const CaseSource& source) {
@@ -131,9 +131,9 @@ CaseUnits units_of(const CaseScales& scales) {
     return {force, force * length, speed * speed, speed * speed * speed / length};
 }
 
-QuantityHistory scalar_history(const FoamHistory& history, const std::string& name, double largest) {
+QuantityHistory scalar_history(const FoamHistory& history, std::size_t column, const std::string& name,
+                               double largest) {
     QuantityHistory scalar{name, history.files, {}, {}, largest, 0.0, true};
-    const std::size_t column = history.index("volAverage(" + name + ")");
     for (const std::vector<double>& row : history.rows) {
         scalar.times.push_back(row.front());
         scalar.values.emplace_back(row[column], 0.0, 0.0);
@@ -151,7 +151,8 @@ QuantityHistory vector_history(const CaseSource& source, const VectorHistory& hi
 }
 
 /// Returns the histories of force, moment and, where the case has its own, k and epsilon.
-std::vector<QuantityHistory> histories_of(const CaseSource& source, bool has_turbulence) {
+std::vector<QuantityHistory> histories_of(const CaseSource& source,
+                                          const std::optional<TurbulenceHistory>& turbulence) {
     const fs::path folder = source.folder() / "postProcessing";
     const LoadHistory loads = read_load_history(folder / "forces");
     const CaseUnits units = units_of(source.planned.scales);
@@ -159,17 +160,17 @@ std::vector<QuantityHistory> histories_of(const CaseSource& source, bool has_tur
     std::vector<QuantityHistory> histories = {
         vector_history(source, loads.force, "force", largest * units.force),
         vector_history(source, loads.moment, "moment", largest * units.moment)};
-    if (!has_turbulence) return histories;
-    const FoamHistory shell = read_joined_history(folder / "shell", "volFieldValue");
-    histories.push_back(scalar_history(shell, "k", largest_k * units.k));
-    histories.push_back(scalar_history(shell, "epsilon", largest_epsilon * units.epsilon));
+    if (!turbulence) return histories;
+    const auto& [mean, zone, field, means, k, epsilon] = *turbulence;
+    histories.push_back(scalar_history(means, k, "k", largest_k * units.k));
+    histories.push_back(scalar_history(means, epsilon, "epsilon", largest_epsilon * units.epsilon));
     return histories;
 }
 
 /// Compares the histories of k and epsilon with the fields that were written last.
-void require_fields_agree(const CaseSource& source, const QuantityHistory& k, const QuantityHistory& epsilon,
-                          Shells& shells) {
-    const ShellMeans written = mean_over_shell(source.folder(), mesh_folder(source), shells);
+void require_fields_agree(const CaseSource& source, const TurbulenceHistory& history,
+                          const QuantityHistory& k, const QuantityHistory& epsilon, MeshZones& zones) {
+    const WrittenMeans written = written_means(source.folder(), mesh_folder(source), history, zones);
     const std::size_t last = place_of(source, k, written.time);
     require_agreement(source, "k", written.turbulent_kinetic_energy, k.values[last].x(), written.time);
     require_agreement(source, "epsilon", written.dissipation_rate, epsilon.values[last].x(), written.time);
@@ -207,6 +208,11 @@ void require_noted(const CaseSource& source, const std::string& name, const Vect
                     name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
 }
 
+/// Returns the means of k and epsilon in a provenance.json.
+const nlohmann::json& noted_turbulence(const nlohmann::json& provenance) {
+    return provenance.at(provenance.contains("near_wake") ? "near_wake" : "shell");
+}
+
 /// Throws where the means differ from those that provenance.json holds since the case was solved, if it does.
 void require_as_noted(const CaseSource& source, const nlohmann::json& provenance,
                       const std::vector<Tail>& tails) {
@@ -222,8 +228,9 @@ void require_as_noted(const CaseSource& source, const nlohmann::json& provenance
         require_noted(source, "moment", tails[1].mean, vector(provenance.at("moment")),
                       1e-3 * source.planned.scales.length * force.norm());
         if (tails.size() == 2) return;
-        require_noted(source, "k", tails[2].mean, scalar(provenance.at("shell").at("k")), 0.0);
-        require_noted(source, "epsilon", tails[3].mean, scalar(provenance.at("shell").at("epsilon")), 0.0);
+        const nlohmann::json& noted = noted_turbulence(provenance);
+        require_noted(source, "k", tails[2].mean, scalar(noted.at("k")), 0.0);
+        require_noted(source, "epsilon", tails[3].mean, scalar(noted.at("epsilon")), 0.0);
     } catch (const nlohmann::json::exception& reason) {
         throw source.error(
             fmt::format("in provenance.json an entry is missing or of the wrong type ({})", reason.what()));
@@ -278,11 +285,11 @@ void require_flow(const CaseSource& source, const Vector3d& flow) {
 }
 
 /// Throws where the plan differs from the flow that the case's own files set up, as far as these can be read.
-void require_as_set_up(const CaseSource& source, Shells& shells) {
+void require_as_set_up(const CaseSource& source, MeshZones& zones) {
     const CaseSetup setup = read_case_setup(source.folder());
     const auto& [length, speed, density] = source.planned.scales;
     if (source.plan.solved_by_user && !setup.patches.empty()) {
-        const auto area = shells.area(mesh_folder(source), setup.patches);
+        const auto area = zones.area(mesh_folder(source), setup.patches);
         if (area) {
             require_near(source, "sqrt(S/pi) of the body's area S in the mesh is",
                          std::sqrt(*area / std::numbers::pi), "'length'", length,
@@ -314,8 +321,8 @@ void require_sane(const CaseSource& source, const DirectionSample& sample, bool 
                                      : ""));
     }
     if (!has_turbulence) return;
-    if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw reject("k in the shell is not positive");
-    if (!(sample.entry.dissipation_rate > 0.0)) throw reject("epsilon in the shell is not positive");
+    if (!(sample.entry.turbulent_kinetic_energy > 0.0)) throw reject("the mean of k is not positive");
+    if (!(sample.entry.dissipation_rate > 0.0)) throw reject("the mean of epsilon is not positive");
 }
 
 nlohmann::json read_provenance(const CaseSource& source) {
@@ -347,15 +354,16 @@ Closure solved_closure(const CaseSource& source, const nlohmann::json& provenanc
 }
 
 /// Takes k and epsilon from the case that `planned` names, and stores its provenance beside the case's own.
-void take_turbulence(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned, Shells& shells,
-                     SolvedCase& solved) {
+void take_turbulence(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned,
+                     MeshZones& zones, SolvedCase& solved) {
     const auto other = std::ranges::find(plan.cases, planned.turbulence_from, &PlannedCase::name);
     if (other == plan.cases.end()) throw std::logic_error("the plan has no case " + planned.turbulence_from);
-    const SolvedCase turbulence = reduce_case(folder, plan, *other, shells);
+    const SolvedCase turbulence = reduce_case(folder, plan, *other, zones);
     solved.sample.entry.turbulent_kinetic_energy = turbulence.sample.entry.turbulent_kinetic_energy;
     solved.sample.error.turbulent_kinetic_energy = turbulence.sample.error.turbulent_kinetic_energy;
     solved.sample.entry.dissipation_rate = turbulence.sample.entry.dissipation_rate;
     solved.sample.error.dissipation_rate = turbulence.sample.error.dissipation_rate;
+    solved.turbulence_mean = turbulence.turbulence_mean;
     nlohmann::json provenance = parse_json(solved.provenance);
     provenance["turbulence"] = parse_json(turbulence.provenance);
     solved.provenance = provenance.dump();
@@ -368,17 +376,19 @@ bool is_solved(const fs::path& folder) {
 }
 
 SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const PlannedCase& planned,
-                       Shells& shells) {
+                       MeshZones& zones) {
     const CaseSource source{folder, plan, planned};
     if (!fs::is_directory(source.folder())) throw source.error("the case's folder is missing");
     const nlohmann::json provenance = read_provenance(source);
     if (!plan.solved_by_user) require_as_planned(source);
-    require_as_set_up(source, shells);
+    require_as_set_up(source, zones);
     SolvedCase solved{
         planned.name, planned.reynolds_number, {planned.direction, {}, {}},       provenance.dump(),
         planned.mesh, planned.purpose,         solved_closure(source, provenance)};
     const bool has_turbulence = solved.closure != Closure::laminar && planned.turbulence_from.empty();
-    std::vector<QuantityHistory> histories = histories_of(source, has_turbulence);
+    std::optional<TurbulenceHistory> turbulence;
+    if (has_turbulence) turbulence = read_turbulence_history(source.folder());
+    std::vector<QuantityHistory> histories = histories_of(source, turbulence);
     const double start = averaging_start(source, provenance, histories.front().times);
     const std::vector<Tail> tails = tails_of(source, histories, start);
     require_as_noted(source, provenance, tails);
@@ -388,17 +398,18 @@ SolvedCase reduce_case(const fs::path& folder, const CasePlan& plan, const Plann
     sample.error.force = tails[0].error / units.force;
     sample.entry.moment = tails[1].mean / units.moment;
     sample.error.moment = tails[1].error / units.moment;
-    if (!has_turbulence) {
+    if (!turbulence) {
         require_reach_of_fields(source, histories.front());
     } else {
-        require_fields_agree(source, histories[2], histories[3], shells);
+        require_fields_agree(source, *turbulence, histories[2], histories[3], zones);
+        solved.turbulence_mean = turbulence->mean;
         sample.entry.turbulent_kinetic_energy = tails[2].mean.x() / units.k;
         sample.error.turbulent_kinetic_energy = tails[2].error.x() / units.k;
         sample.entry.dissipation_rate = tails[3].mean.x() / units.epsilon;
         sample.error.dissipation_rate = tails[3].error.x() / units.epsilon;
     }
     require_sane(source, sample, has_turbulence);
-    if (!planned.turbulence_from.empty()) take_turbulence(folder, plan, planned, shells, solved);
+    if (!planned.turbulence_from.empty()) take_turbulence(folder, plan, planned, zones, solved);
     return solved;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "converter/cases/case_plan.hpp"
-#include "converter/cases/shell_means.hpp"
+#include "converter/cases/turbulence_means.hpp"
 #include "converter/tables/symmetric_loads.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/body.hpp"
@@ -23,7 +23,8 @@ struct SolvedCase {
         provenance;  ///< the JSON object of its provenance.json; of a user's case {"solved_by": "user"}
     std::string mesh = "mesh";
     CasePurpose purpose = CasePurpose::table;
-    Closure closure = Closure::unsaid;  ///< as the case was solved
+    Closure closure = Closure::unsaid;                   ///< as the case was solved
+    std::optional<TurbulenceMean> turbulence_mean = {};  ///< none where the flow is laminar
 };
 
 /// Whether the case was solved and checked: it has a provenance.json. A case of a plan that says "solved_by":
@@ -33,20 +34,21 @@ bool is_solved(const std::filesystem::path& folder);
 /// Reduces the solved case FOLDER/NAME of a plan, over all rounds of its solution:
 ///  - force and moment coefficients: means of postProcessing/forces over the times from averaging_start on,
 ///    divided by rho U^2 A/2 with A = pi L^2/4, and for the moment also by L;
-///  - k/U^2 and epsilon L/U^3: means over the same times of the volume means in postProcessing/shell; 0 where
+///  - k/U^2 and epsilon L/U^3: means over the same times of those near the body (read_turbulence_history); 0
+///  where
 ///    the closure is laminar; those of another case where the plan says so (turbulence_from), whose
 ///    provenance then stands in this one's as `turbulence`;
 ///  - errors: tail_error of the same times.
 /// averaging_start is the plan's for this case, else that of provenance.json, else the start of the last
-/// quarter of the times. The volume means are compared with the fields written last (mean_over_shell), and
-/// all means with those in provenance.json. Throws Error naming case or file where a file is missing or
+/// quarter of the times. Those of k and epsilon are compared with the fields written last (written_means),
+/// and all means with those in provenance.json. Throws Error naming case or file where a file is missing or
 /// damaged; where the case was solved for another direction or Reynolds number than planned, by its
 /// parameters or by the viscosity, velocity, density and, of a user's case, body area that its own files set
 /// up (CaseSetup); where histories are not whole or plausible (require_whole, require_plausible), have
 /// changed since the case was solved, or differ from the fields by more than 1e-4 (they are of different
 /// runs); and where the solution diverged: values that are not finite, drag, k or epsilon not positive.
 SolvedCase reduce_case(const std::filesystem::path& folder, const CasePlan& plan, const PlannedCase& planned,
-                       Shells& shells);
+                       MeshZones& zones);
 
 /// The reduced cases of a folder.
 struct FolderReduction {
@@ -58,8 +60,8 @@ struct FolderReduction {
 /// Whether cases that are neither solved nor failed are an error or are left out.
 enum class UnsolvedCases { reject, leave_out };
 
-/// Reduces every case of the plan (reduce_case), each with the shell of the mesh FOLDER/MESH that it names,
-/// or of its own constant/polyMesh where there is no such folder; a mesh is read once. A case with
+/// Reduces every case of the plan (reduce_case), each with the cell zone of the mesh FOLDER/MESH that it
+/// names, or of its own constant/polyMesh where there is no such folder; a mesh is read once. A case with
 /// failed.json, or whose mesh has one, is left out with the reason there, and so is one that takes its
 /// turbulence from a failed case. `progress` is called with the number of cases done and their total. Throws
 /// Error where a case is damaged, and, unless `unsolved` says otherwise, where a case is neither solved nor

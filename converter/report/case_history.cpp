@@ -4,6 +4,7 @@
 #include <string>
 
 #include "converter/cases/load_fluctuations.hpp"
+#include "converter/cases/turbulence_means.hpp"
 #include "converter/report/case_parts.hpp"
 
 namespace samara {
@@ -59,11 +60,13 @@ CaseHistory read_case_history(const fs::path& folder, const CasePlan& plan, cons
         history.moment.push_back(moment.norm() / (force_unit * scales.length));
     }
     history.moment.resize(history.drag.size());
-    const fs::path shell = folder / "postProcessing/shell";
-    if (planned.closure != Closure::laminar && !history_files(shell, "volFieldValue").empty()) {
-        const FoamHistory means = read_joined_history(shell, "volFieldValue");
-        for (const double k : means.column("volAverage(k)", 0.0)) {
-            history.k.push_back(k / (scales.speed * scales.speed));
+    const auto has_means = [&](const char* name) {
+        return !history_files(folder / "postProcessing" / name, "volFieldValue").empty();
+    };
+    if (planned.closure != Closure::laminar && (has_means("nearWake") || has_means("shell"))) {
+        const TurbulenceHistory turbulence = read_turbulence_history(folder);
+        for (const std::vector<double>& row : turbulence.means.rows) {
+            history.k.push_back(row[turbulence.k_column] / (scales.speed * scales.speed));
         }
         history.k.resize(history.drag.size());
     }

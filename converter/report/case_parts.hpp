@@ -23,7 +23,7 @@ struct CaseHistory {
     std::vector<double> iterations;
     std::vector<double> drag;  ///< coefficients relative to A = pi L^2/4
     std::vector<double> moment;
-    std::vector<double> k;  ///< k/U^2 of the shell; empty where the flow is laminar
+    std::vector<double> k;  ///< k/U^2 near the body; empty where the flow is laminar
     std::vector<double> residual_iterations;
     std::vector<double> residuals;  ///< initial residuals of the pressure in the last round
 };

@@ -16,14 +16,12 @@
 namespace samara {
 namespace {
 
-/// Returns the errors with those of k and epsilon relative to k and epsilon, which to first order are those
-/// of the logarithms.
-LoadEntryError relative_to(const LoadEntry& entry, LoadEntryError error) {
-    const bool turbulent = is_turbulent(entry);
-    error.turbulent_kinetic_energy =
-        turbulent ? error.turbulent_kinetic_energy / entry.turbulent_kinetic_energy : 0.0;
-    error.dissipation_rate = turbulent ? error.dissipation_rate / entry.dissipation_rate : 0.0;
-    return error;
+/// Returns the errors with those of turbulence in_fit_units(), to first order.
+LoadEntryError error_in_fit_units(const LoadEntry& entry, const LoadEntryError& error) {
+    if (!is_turbulent(entry)) return {error.force, error.moment, 0.0, 0.0};
+    return {error.force, error.moment,
+            0.5 * error.turbulent_kinetic_energy / std::sqrt(entry.turbulent_kinetic_energy),
+            0.5 * error.dissipation_rate / std::sqrt(entry.dissipation_rate)};
 }
 
 /// Removes the components that the symmetry forbids from the cases (keep_symmetric_part) and returns the
@@ -96,16 +94,13 @@ void add_failed_directions(const Symmetry& symmetry, const ReynoldsTable& table,
             continue;
         }
         directions.push_back(sample.direction);
-        changes.push_back(plus(in_logarithms(sample.entry), -1.0, in_logarithms(partner->entry)));
+        changes.push_back(plus(in_fit_units(sample.entry), -1.0, in_fit_units(partner->entry)));
     }
     if (directions.empty() || failed.empty()) return;
     const DirectionFit change(symmetry, directions);
     for (DirectionSample& sample : failed) {
-        const LoadEntry here = change.at(changes, sample.direction);
-        sample.entry.force -= here.force;
-        sample.entry.moment -= here.moment;
-        sample.entry.turbulent_kinetic_energy *= std::exp(-here.turbulent_kinetic_energy);
-        sample.entry.dissipation_rate *= std::exp(-here.dissipation_rate);
+        const LoadEntry fitted = plus(in_fit_units(sample.entry), -1.0, change.at(changes, sample.direction));
+        sample.entry = from_fit_units(fitted, plus({}, 0.5, in_fit_units(sample.entry)));
         before.samples.push_back(sample);
     }
 }
@@ -117,7 +112,7 @@ FittedTables fitted_tables(const Symmetry& symmetry, std::vector<SolvedCase>& ca
     std::vector<LoadEntryError> tail;
     tail.reserve(cases.size());
     for (const SolvedCase& solved : cases) {
-        tail.push_back(relative_to(solved.sample.entry, solved.sample.error));
+        tail.push_back(error_in_fit_units(solved.sample.entry, solved.sample.error));
     }
     const std::vector<LoadEntryError> asymmetry = take_forbidden(symmetry, cases);
     std::optional<SurfaceTrend> trend;

@@ -49,7 +49,7 @@ bool is_compared_with(const SolvedCase& base, const SolvedCase& other, double to
     return other.purpose == CasePurpose::mesh ? base.closure == other.closure : base.mesh == other.mesh;
 }
 
-/// The table's entry and those of the cases that are compared with it, with logarithms of k and epsilon.
+/// The table's entry and those of the cases that are compared with it, in_fit_units().
 struct Group {
     LoadEntry table;
     std::vector<LoadEntry> others;
@@ -58,10 +58,10 @@ struct Group {
 
 Group group_of(const SolvedCase& table, CasePurpose purpose, const std::vector<SolvedCase>& cases,
                double tolerance) {
-    Group group{in_logarithms(table.sample.entry), {}, is_turbulent(table.sample.entry)};
+    Group group{in_fit_units(table.sample.entry), {}, is_turbulent(table.sample.entry)};
     for (const SolvedCase& other : cases) {
         if (other.purpose != purpose || !is_compared_with(table, other, tolerance)) continue;
-        group.others.push_back(in_logarithms(other.sample.entry));
+        group.others.push_back(in_fit_units(other.sample.entry));
         group.turbulent = group.turbulent && is_turbulent(other.sample.entry);
     }
     return group;
@@ -91,8 +91,10 @@ void add(AllVariances& all, const Group& group, const LoadEntry& variance, const
     add_load(all.force, variance.force, allowed.force, scale.of_force(group.table.force));
     add_load(all.moment, variance.moment, allowed.moment, scale.of_moment(group.table.moment));
     if (!group.turbulent) return;
-    all.turbulent_kinetic_energy.add(variance.turbulent_kinetic_energy, degrees);
-    all.dissipation_rate.add(variance.dissipation_rate, degrees);
+    const double k = scale.of_root_of_k(group.table.turbulent_kinetic_energy);
+    const double epsilon = scale.of_root_of_epsilon(group.table.dissipation_rate);
+    all.turbulent_kinetic_energy.add(variance.turbulent_kinetic_energy / (k * k), degrees);
+    all.dissipation_rate.add(variance.dissipation_rate / (epsilon * epsilon), degrees);
 }
 
 const LoadScale& scale_at(double reynolds_number, const std::vector<double>& reynolds_numbers,
@@ -109,6 +111,14 @@ double LoadScale::of_force(const Vector3d& value) const {
 
 double LoadScale::of_moment(const Vector3d& value) const {
     return std::hypot(value.norm(), 0.5 * moment);
+}
+
+double LoadScale::of_root_of_k(double root) const {
+    return std::hypot(root, 0.5 * root_of_k);
+}
+
+double LoadScale::of_root_of_epsilon(double root) const {
+    return std::hypot(root, 0.5 * root_of_epsilon);
 }
 
 std::optional<RelativeErrors> model_errors(CasePurpose purpose, const Symmetry& symmetry,

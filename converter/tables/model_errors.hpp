@@ -8,20 +8,23 @@
 
 namespace samara {
 
-/// The magnitude of the loads at one Reynolds number, to which their model errors are relative.
+/// The magnitude of loads and turbulence at one Reynolds number, to which their model errors are relative.
 struct LoadScale {
     double force = 0.0;  ///< root mean squares over the directions
     double moment = 0.0;
+    double root_of_k = 0.0;
+    double root_of_epsilon = 0.0;
 
     /// Returns the scale in one direction: sqrt(|F|^2 + (rms F / 2)^2), likewise for the moment. The error
     /// grows with the load, with a lower limit where the load vanishes, by the symmetry or in a direction
     /// that is itself uncertain.
     [[nodiscard]] double of_force(const Vector3d& force) const;
     [[nodiscard]] double of_moment(const Vector3d& moment) const;
+    [[nodiscard]] double of_root_of_k(double root) const;
+    [[nodiscard]] double of_root_of_epsilon(double root) const;
 };
 
-/// Standard errors for all directions: of loads relative to their LoadScale, of the logarithms of k and
-/// epsilon.
+/// Standard errors for all directions, relative to their LoadScale; of turbulence in_fit_units().
 using RelativeErrors = ErrorMetrics;
 
 /// Estimates the model errors by comparing the cases of one purpose with the table's that were solved in the

@@ -42,6 +42,11 @@ class MeanSquare {
         if (count_ < 2) return std::sqrt(sum_);
         return student_widening(count_) * std::sqrt(sum_ / count_);
     }
+    /// Returns widened_root() of a quantity whose errors are large in few directions, where a wake detaches:
+    /// of the mean square plus its own standard error among as many normal numbers.
+    [[nodiscard]] double upper_root() const {
+        return count_ < 2 ? widened_root() : widened_root() * std::sqrt(1.0 + std::sqrt(2.0 / count_));
+    }
 
   private:
     double sum_ = 0.0;
@@ -64,10 +69,16 @@ bool is_turbulent(const LoadEntry& entry) {
     return entry.turbulent_kinetic_energy > 0.0 && entry.dissipation_rate > 0.0;
 }
 
-LoadEntry in_logarithms(const LoadEntry& entry) {
-    if (!is_turbulent(entry)) return {entry.force, entry.moment, 0.0, 0.0};
-    return {entry.force, entry.moment, std::log(entry.turbulent_kinetic_energy),
-            std::log(entry.dissipation_rate)};
+LoadEntry in_fit_units(const LoadEntry& entry) {
+    return {entry.force, entry.moment, std::sqrt(entry.turbulent_kinetic_energy),
+            std::sqrt(entry.dissipation_rate)};
+}
+
+LoadEntry from_fit_units(const LoadEntry& entry, const LoadEntry& least) {
+    const auto squared = [](double root, double bound) { return std::pow(std::max(root, bound), 2.0); };
+    return {entry.force, entry.moment,
+            squared(entry.turbulent_kinetic_energy, least.turbulent_kinetic_energy),
+            squared(entry.dissipation_rate, least.dissipation_rate)};
 }
 
 ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSample>& samples,
@@ -95,12 +106,19 @@ ReynoldsFit::ReynoldsFit(const Symmetry& symmetry, const std::vector<DirectionSa
 void ReynoldsFit::set_values(const std::vector<DirectionSample>& samples) {
     values_.clear();
     for (const DirectionSample& sample : samples) {
-        values_.push_back(plus(in_logarithms(sample.entry), -1.0, base_at(sample.direction)));
+        values_.push_back(plus(in_fit_units(sample.entry), -1.0, base_at(sample.direction)));
     }
+    const auto half_of_least = [&](double LoadEntry::*scalar) {
+        double least = samples.front().entry.*scalar;
+        for (const DirectionSample& sample : samples) least = std::min(least, sample.entry.*scalar);
+        return 0.5 * std::sqrt(least);
+    };
+    least_.turbulent_kinetic_energy = half_of_least(&LoadEntry::turbulent_kinetic_energy);
+    least_.dissipation_rate = half_of_least(&LoadEntry::dissipation_rate);
 }
 
 LoadEntry ReynoldsFit::base_at(const Vector3d& direction) const {
-    if (main_ != nullptr) return main_->logarithms_at(direction);
+    if (main_ != nullptr) return main_->in_fit_units_at(direction);
     LoadEntry trend;
     if (!force_has_trend_ && !moment_has_trend_) return trend;
     const LoadEntry both = trend_->at(direction);
@@ -109,15 +127,14 @@ LoadEntry ReynoldsFit::base_at(const Vector3d& direction) const {
     return trend;
 }
 
-LoadEntry ReynoldsFit::logarithms_at(const Vector3d& direction) const {
+LoadEntry ReynoldsFit::in_fit_units_at(const Vector3d& direction) const {
     return plus(fit_.at(values_, direction), 1.0, base_at(direction));
 }
 
 LoadEntry ReynoldsFit::at(const Vector3d& direction) const {
-    LoadEntry entry = logarithms_at(direction);
-    entry.turbulent_kinetic_energy = turbulent_ ? std::exp(entry.turbulent_kinetic_energy) : 0.0;
-    entry.dissipation_rate = turbulent_ ? std::exp(entry.dissipation_rate) : 0.0;
-    return entry;
+    const LoadEntry entry = in_fit_units_at(direction);
+    if (!turbulent_) return {entry.force, entry.moment, 0.0, 0.0};
+    return from_fit_units(entry, least_);
 }
 
 ErrorMetrics ReynoldsFit::left_out(const Symmetry& symmetry,
@@ -127,11 +144,7 @@ ErrorMetrics ReynoldsFit::left_out(const Symmetry& symmetry,
     MeanSquare turbulent_kinetic_energy;
     MeanSquare dissipation_rate;
     for (std::size_t i = 0; i < values_.size(); ++i) {
-        LoadEntry error = plus(values_[i], -1.0, fit_.without(values_, i));
-        // A single sample says nothing about the change with the direction: a factor of e is assumed.
-        if (values_.size() == 1 && main_ == nullptr) {
-            error.turbulent_kinetic_energy = error.dissipation_rate = 1.0;
-        }
+        const LoadEntry error = plus(values_[i], -1.0, fit_.without(values_, i));
         const double spread = fit_.spread_without(i);
         const AllowedComponents allowed = allowed_components(symmetry, samples[i].direction);
         force.add(error.force.squaredNorm(), allowed.force, spread);
@@ -140,8 +153,8 @@ ErrorMetrics ReynoldsFit::left_out(const Symmetry& symmetry,
                                      spread);
         dissipation_rate.add(error.dissipation_rate * error.dissipation_rate, 1, spread);
     }
-    return {force.widened_root(), moment.widened_root(), turbulent_kinetic_energy.widened_root(),
-            dissipation_rate.widened_root()};
+    return {force.widened_root(), moment.widened_root(), turbulent_kinetic_energy.upper_root(),
+            dissipation_rate.upper_root()};
 }
 
 ErrorMetrics ReynoldsFit::interpolation_error(const Vector3d& direction) const {

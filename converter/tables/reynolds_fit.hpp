@@ -27,8 +27,7 @@ class SurfaceTrend {
     std::vector<Matrix3d> elements_;  ///< from map axes to the body axes of each image
 };
 
-/// Standard errors, equal for all components of a force or moment; those of k and epsilon are of their
-/// natural logarithms.
+/// Standard errors, equal for all components of a force or moment; those of turbulence are in_fit_units().
 struct ErrorMetrics {
     double force = 0.0;
     double moment = 0.0;
@@ -36,20 +35,23 @@ struct ErrorMetrics {
     double dissipation_rate = 0.0;
 };
 
-/// Returns the entry with the natural logarithms of k and epsilon. Where either is 0 (laminar flow) both
-/// become 0.
-LoadEntry in_logarithms(const LoadEntry& entry);
+/// Returns the entry with the units in which turbulence is interpolated and its errors are estimated: the
+/// roots of k, which the velocity fluctuation goes with, and of epsilon.
+LoadEntry in_fit_units(const LoadEntry& entry);
+
+/// Returns the entry of one in_fit_units(), whose roots are not below those of `least`.
+LoadEntry from_fit_units(const LoadEntry& entry, const LoadEntry& least);
 
 /// Whether k and epsilon are positive.
 bool is_turbulent(const LoadEntry& entry);
 
 /// The loads over the direction at one Reynolds number: a smooth function through its samples (map axes).
-/// Forces and moments are interpolated as they are, k and epsilon by their logarithms, so that they stay
-/// positive; in laminar flow they are 0 everywhere. Relative to another, denser fit (`main`, at another
-/// Reynolds number or on a coarser mesh) the value is main's plus a smooth interpolation of the samples'
-/// differences from it, so that few samples give a whole table. Likewise force and moment may each be
-/// relative to the trend by the body's surface loads, where that halves the variance of the leave-one-out
-/// errors.
+/// Forces and moments are interpolated as they are, turbulence in_fit_units(), its roots never below half of
+/// the least sample's; in laminar flow k and epsilon are 0 everywhere. Relative to another, denser fit
+/// (`main`, at another Reynolds number or on a coarser mesh) the value is main's plus a smooth interpolation
+/// of the samples' differences from it, so that few samples give a whole table. Likewise force and moment may
+/// each be relative to the trend by the body's surface loads, where that halves the variance of the
+/// leave-one-out errors.
 class ReynoldsFit {
   public:
     /// `samples` already passed through keep_symmetric_part, at least one; no two directions are images of
@@ -83,7 +85,7 @@ class ReynoldsFit {
     [[nodiscard]] bool moment_has_trend() const { return moment_has_trend_; }
 
   private:
-    [[nodiscard]] LoadEntry logarithms_at(const Vector3d& direction) const;
+    [[nodiscard]] LoadEntry in_fit_units_at(const Vector3d& direction) const;
     /// Returns the value of main or of the trend to which the samples are relative.
     [[nodiscard]] LoadEntry base_at(const Vector3d& direction) const;
     void set_values(const std::vector<DirectionSample>& samples);
@@ -92,13 +94,14 @@ class ReynoldsFit {
                                         const std::vector<DirectionSample>& samples) const;
 
     DirectionFit fit_;
-    std::vector<LoadEntry> values_;  ///< with logarithms; differences from base_at()
+    std::vector<LoadEntry> values_;  ///< in_fit_units(); differences from base_at()
     ErrorMetrics scale_;             ///< error per spread
     const ReynoldsFit* main_ = nullptr;
     std::optional<SurfaceTrend> trend_;
     bool force_has_trend_ = false;
     bool moment_has_trend_ = false;
     bool turbulent_;
+    LoadEntry least_;  ///< half of the samples' least roots
 };
 
 }  // namespace samara

@@ -26,20 +26,23 @@ const LoadEntryError& of(const SourceVariances& variances, ErrorSource source) {
     return variances[static_cast<std::size_t>(source)];
 }
 
-/// Returns the variance of each component and logarithm by standard errors that are equal for all free
-/// components.
+/// Returns the variance of each component, and of turbulence in_fit_units(), by standard errors that are
+/// equal for all free components.
 LoadEntryError variance_of(const ErrorMetrics& metrics, const FreeComponents& free) {
     return {metrics.force * metrics.force * free.force, metrics.moment * metrics.moment * free.moment,
             metrics.turbulent_kinetic_energy * metrics.turbulent_kinetic_energy,
             metrics.dissipation_rate * metrics.dissipation_rate};
 }
 
-/// Converts variances to standard errors, those of k and epsilon from the logarithms to the values.
+/// Converts variances to standard errors, those of turbulence from in_fit_units() to k and epsilon.
 LoadEntryError absolute(const LoadEntry& entry, const LoadEntryError& variance) {
     LoadEntryError error = rooted(variance);
+    const auto of_square = [](double square, double of_root) {
+        return (2.0 * std::sqrt(square) + of_root) * of_root;
+    };
     error.turbulent_kinetic_energy =
-        entry.turbulent_kinetic_energy * std::expm1(error.turbulent_kinetic_energy);
-    error.dissipation_rate = entry.dissipation_rate * std::expm1(error.dissipation_rate);
+        of_square(entry.turbulent_kinetic_energy, error.turbulent_kinetic_energy);
+    error.dissipation_rate = of_square(entry.dissipation_rate, error.dissipation_rate);
     return error;
 }
 
@@ -60,6 +63,8 @@ std::size_t node_index(int subdivisions, int row, int column) {
 void fill_nodes(ReynoldsTable& table, int subdivisions) {
     double force = 0.0;
     double moment = 0.0;
+    double k = 0.0;
+    double epsilon = 0.0;
     double directions = 0.0;
     for_each(2 * subdivisions + 1, [&](int row, int column) {
         const LoadEntry entry = table.fit->at(octahedral_node(subdivisions, row, column));
@@ -68,9 +73,12 @@ void fill_nodes(ReynoldsTable& table, int subdivisions) {
         if (unique_node(subdivisions, row, column) != here) return;
         force += entry.force.squaredNorm();
         moment += entry.moment.squaredNorm();
+        k += entry.turbulent_kinetic_energy;
+        epsilon += entry.dissipation_rate;
         directions += 1.0;
     });
-    table.scale = {std::sqrt(force / directions), std::sqrt(moment / directions)};
+    table.scale = {std::sqrt(force / directions), std::sqrt(moment / directions), std::sqrt(k / directions),
+                   std::sqrt(epsilon / directions)};
 }
 
 /// Returns the variance by the interpolation at the centre of a cell.
@@ -83,7 +91,7 @@ LoadEntryError variance_in_cell(const ReynoldsTable& table, const Symmetry& symm
     for (const auto& [down, right] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
         bilinear = plus(bilinear, 0.25, table.nodes[node_index(subdivisions, row + down, column + right)]);
     }
-    const LoadEntry lookup = plus(in_logarithms(bilinear), -1.0, in_logarithms(table.fit->at(center)));
+    const LoadEntry lookup = plus(in_fit_units(bilinear), -1.0, in_fit_units(table.fit->at(center)));
     return plus(variance_of(table.fit->interpolation_error(center), free_components(symmetry, center)), 1.0,
                 squared(lookup));
 }
@@ -113,7 +121,8 @@ LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& ent
                               const FreeComponents& free) {
     return variance_of(
         {errors.force * scale.of_force(entry.force), errors.moment * scale.of_moment(entry.moment),
-         errors.turbulent_kinetic_energy, errors.dissipation_rate},
+         errors.turbulent_kinetic_energy * scale.of_root_of_k(std::sqrt(entry.turbulent_kinetic_energy)),
+         errors.dissipation_rate * scale.of_root_of_epsilon(std::sqrt(entry.dissipation_rate))},
         free);
 }
 
@@ -233,7 +242,14 @@ std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symm
         for (std::size_t node = 0; node < part.nodes.size(); ++node) {
             const LoadEntry& entry = part.nodes[node];
             LoadEntryError sum;
-            for (const LoadEntryError& variance : variances[node]) sum = plus(sum, 1.0, variance);
+            for (std::size_t i = 0; i < error_source_count; ++i) {
+                LoadEntryError variance = variances[node][i];
+                // The spread of closures is no error of the numbers, and no finer bake lowers it.
+                if (static_cast<ErrorSource>(i) == ErrorSource::closure) {
+                    variance.turbulent_kinetic_energy = variance.dissipation_rate = 0.0;
+                }
+                sum = plus(sum, 1.0, variance);
+            }
             tables.entries.push_back(transformed(entry, tables.axes));
             tables.errors.push_back(transformed_error(absolute(entry, sum), tables.axes));
             const LoadEntryError of_sampling = of(variances[node], ErrorSource::interpolation);
@@ -265,7 +281,7 @@ LoadEntryError reynolds_interpolation_variance(const std::vector<double>& reynol
             const LoadEntry& lower = nodes[i - 1][node];
             const LoadEntry& upper = nodes[i + 1][node];
             const LoadEntry lookup = plus(plus({}, 1.0 - fraction, lower), fraction, upper);
-            LoadEntry error = plus(in_logarithms(lookup), -1.0, in_logarithms(nodes[i][node]));
+            LoadEntry error = plus(in_fit_units(lookup), -1.0, in_fit_units(nodes[i][node]));
             const bool all = is_turbulent(lower) && is_turbulent(nodes[i][node]) && is_turbulent(upper);
             if (!all) error.turbulent_kinetic_energy = error.dissipation_rate = 0.0;
             sum = plus(sum, 1.0, squared(error));

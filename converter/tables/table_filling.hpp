@@ -19,11 +19,12 @@ namespace samara {
 /// In `cases` the loads that the symmetry forbids are removed from every case, and the table cases' errors
 /// are widened by them (keep_symmetric_part).
 ///
-/// The error of an entry has five sources, in quadrature, for k and epsilon as errors s of their logarithms,
-/// from which that of k is k (exp(s) - 1):
+/// The error of an entry has five sources, in quadrature, for k and epsilon as errors s of their roots, from
+/// which that of k is (2 sqrt(k) + s) s:
 ///  - tail: the iterations had not ended (tail_error);
 ///  - symmetry: forbidden loads (keep_symmetric_part);
-///  - mesh and closure: model_errors;
+///  - mesh and closure: model_errors; that of closures is in the errors of loads, and for k and epsilon in
+///    error_sources alone;
 ///  - interpolation: the mean square over the centres of the cells around the node, since a table is used
 ///  between its nodes, of the interpolation between samples (ReynoldsFit::interpolation_error) and of its
 ///  difference from the bilinear lookup; and the interpolation between Reynolds numbers
@@ -43,7 +44,7 @@ std::vector<LoadEntryError> fill_tables(LoadTables& tables, const Symmetry& symm
 /// Estimates the mean square error of interpolating a table between its Reynolds numbers, linearly in log Re:
 /// each inner Reynolds number is left out and predicted from its two neighbours. That error is of intervals
 /// twice as long, so that for a smooth change a quarter of it remains in the middle of the table's intervals.
-/// The components of a vector have equal errors, those of k and epsilon are of their logarithms; zero where
+/// The components of a vector have equal errors, those of k and epsilon are of their roots; zero where
 /// there are fewer than three Reynolds numbers, or where the flow is laminar.
 ///
 /// `nodes`: the entries of each of the ascending `reynolds_numbers` in the same directions.

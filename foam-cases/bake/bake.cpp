@@ -15,6 +15,7 @@
 
 #include "converter/cases/case_reduction.hpp"
 #include "converter/cases/samples_csv.hpp"
+#include "converter/tables/replaced_turbulence.hpp"
 #include "foam-cases/falls/fall_plan.hpp"
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
@@ -56,8 +57,26 @@ class Stopwatch {
 
 /// Writes the output; the body gets the mass for which it was baked.
 void write_result(const BakeRequest& request, Body& body) {
-    body.mass = mass_asked_or_own(request.mass, body);
+    if (request.turbulence_only) {
+        const LoadTables turbulence = std::move(*body.tables);
+        body = read_body_file(request.shape);
+        body.tables = with_replaced_turbulence(std::move(*body.tables), turbulence);
+    } else {
+        body.mass = mass_asked_or_own(request.mass, body);
+    }
     write_body_file(request.output, body);
+}
+
+/// Returns the Reynolds number of most cases of the body file's tables. Throws Error where it has none.
+double baked_reynolds_number(const fs::path& body_file) {
+    const Body body = read_body_file(body_file);
+    if (!body.tables) {
+        throw Error(
+            fmt::format("{}: has no tables whose k and epsilon could be replaced; bake it without "
+                        "--turbulence-only",
+                        body_file.string()));
+    }
+    return main_reynolds_number(*body.tables, case_records(*body.tables));
 }
 
 bool plans_falls(const BakeRequest& request) {
@@ -81,9 +100,11 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
             std::max(preparation.terminal_speed,
                      bake_speed(body, request.fluid, mass_of(mass, body), request.gravity));
     }
-    const double reynolds_number =
-        rounded_reynolds_number(preparation.terminal_speed * reference_length(body.moments.surface_area) /
-                                request.fluid.kinematic_viscosity());
+    const double reynolds_number = request.turbulence_only
+                                       ? baked_reynolds_number(request.shape)
+                                       : rounded_reynolds_number(preparation.terminal_speed *
+                                                                 reference_length(body.moments.surface_area) /
+                                                                 request.fluid.kinematic_viscosity());
     if (request.goal) {
         preparation.simulation =
             simulate_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
@@ -115,7 +136,7 @@ Body named_body(const BakeRequest& request, const fs::path& folder) {
 class CaseSolving {
   public:
     CaseSolving(const BakeRequest& request, const Body& body, FarmOptions farm, BakeResult& result)
-        : folder_(case_folder_of(request.output)),
+        : folder_(case_folder_of(request)),
           foam_cases_(foam_cases_folder()),
           body_(body),
           farm_(std::move(farm)),
@@ -244,16 +265,22 @@ fs::path case_folder_of(const fs::path& output) {
     return output.parent_path() / (name + ".cases");
 }
 
+fs::path case_folder_of(const BakeRequest& request) {
+    fs::path folder = case_folder_of(request.output);
+    if (request.turbulence_only) folder.replace_extension(".turbulence.cases");
+    return folder;
+}
+
 BakePreparation prepare_bake(const BakeRequest& request) {
     const TemporaryFolder folder;
     Body body = named_body(request, folder.path());
-    add_kirchhoff_tensor(body, request.shape, case_folder_of(request.output) / case_body_name, folder.path());
+    add_kirchhoff_tensor(body, request.shape, case_folder_of(request) / case_body_name, folder.path());
     return plan_of(request, body);
 }
 
 BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm, const Planned& planned) {
     const TemporaryFolder temporary;
-    const fs::path folder = case_folder_of(request.output);
+    const fs::path folder = case_folder_of(request);
     BakeResult result;
     Stopwatch watch;
     if (request.tables) require_solvers(farm, request.ranks);

@@ -36,6 +36,9 @@ struct BakeRequest {
     std::optional<SceneGoal> goal = {};  ///< bakes what a scene needs, in rounds; else all directions
     int probes =
         0;  ///< above 0: the number of cases between the tables' nodes, written as CSV in place of tables
+    /// Solves k and epsilon alone, at the Reynolds numbers of the body file's own tables, and replaces them
+    /// there; all else of the body stays.
+    bool turbulence_only = false;
 };
 
 /// The plan of a bake, before anything is solved.
@@ -65,11 +68,14 @@ struct BakeResult {
 /// Returns the folder of cases of an output file: NAME.cases beside NAME.body.h5, or beside NAME.csv.
 std::filesystem::path case_folder_of(const std::filesystem::path& output);
 
+/// Returns the folder of cases of a bake: that of its output, or for turbulence alone NAME.turbulence.cases.
+std::filesystem::path case_folder_of(const BakeRequest& request);
+
 /// Meshes the body in a temporary folder, computes its Kirchhoff tensor unless an earlier bake did, and plans
 /// its cases and, as the quality asks, its falls; writes nothing else. Throws Error.
 BakePreparation prepare_bake(const BakeRequest& request);
 
-/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(output), and
+/// Meshes the body, computes its Kirchhoff tensor, solves its cases in case_folder_of(request), and
 /// writes the body file with its tables. With a goal it proceeds in rounds (scene_plan.hpp). Cases that an
 /// earlier call solved with the same inputs are reused. `planned` is called with the plan before the long
 /// work begins. Throws Error.

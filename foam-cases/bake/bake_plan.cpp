@@ -279,7 +279,7 @@ void add_ladder(const char* group, std::size_t index, const Vector3d& direction,
         entry.start_from = before;
         before = entry.name;
         plan.cases.push_back(entry);
-        turbulence_before = add_turbulence(turbulence_before, Closure::k_epsilon, plan);
+        turbulence_before = add_turbulence(turbulence_before, plan.quality.turbulence_closure, plan);
     }
 }
 
@@ -320,7 +320,7 @@ void add_further_reynolds_number(const Vector3d& direction, double reynolds_numb
     };
     const BakeCase main = case_of_few(direction, plan);
     add_variant(main, fmt::format("_re_{:.6g}", reynolds_number), change, plan);
-    add_turbulence(main.turbulence_from, Closure::k_epsilon, plan);
+    add_turbulence(main.turbulence_from, plan.quality.turbulence_closure, plan);
 }
 
 void add_other_closures(const Vector3d& direction, BakePlan& plan) {

@@ -11,8 +11,9 @@
 namespace samara {
 namespace {
 
-// Each halves the cells of the one before along the surface and in most of the wake: about 6,000, 19,000,
-// 58,000 and 190,000 cells around an ellipsoid of 1:2:4.
+// Meshes for trials and previews, and of loads with resolved boundary layers: each halves the cells of the
+// one before along the surface and in most of the wake. About 6,000 and 19,000 cells around an ellipsoid of
+// 1:2:4.
 FlowMesh coarse_mesh() {
     return {"mesh_coarse", 10, 2.0, 4, 2, {{0.4, 4}, {1.2, 3}, {3.0, 2}, {5.0, 1}}};
 }
@@ -21,12 +22,20 @@ FlowMesh medium_mesh() {
     return {"mesh_medium", 10, 1.0, 4, 3, {{0.2, 4}, {0.6, 3}, {1.5, 2}, {3.0, 1}}};
 }
 
-FlowMesh fine_mesh() {
-    return {"mesh_fine", 10, 1.0, 5, 4, {{0.15, 5}, {0.35, 4}, {0.9, 3}, {2.0, 2}, {4.0, 1}}};
+// Beyond the medium mesh, loads need a fine wake, not a finer surface (docs/studies/closures).
+FlowMesh wake_mesh() {
+    return {"mesh_wake", 10, 1.0, 4, 0, {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};
 }
 
-FlowMesh finest_mesh() {
-    return {"mesh_finest", 10, 1.0, 6, 5, {{0.1, 6}, {0.22, 5}, {0.5, 4}, {1.2, 3}, {2.6, 2}, {5.0, 1}}};
+FlowMesh fine_wake_mesh() {
+    return {"mesh_fine_wake", 10, 1.0, 5, 0, {{0.15, 5}, {0.6, 4}, {2.0, 3}, {4.0, 2}, {6.0, 1}}};
+}
+
+// Meshes of one layout whose cells are 1.4 times smaller from one to the next, equally fine over the near
+// wake, as k and epsilon need it (docs/studies/turbulence): about 15,000, 42,000, 120,000 and 330,000 cells.
+FlowMesh uniform_mesh(int background_cells) {
+    return {fmt::format("mesh_uniform_{}", background_cells), 10, 20.0 / background_cells, 4, 3,
+            {{1.0, 4}, {2.2, 3}, {3.5, 2}, {5.0, 1}}};
 }
 
 BakeQuality smoke_quality() {
@@ -52,7 +61,7 @@ BakeQuality standard_quality() {
     BakeQuality quality;
     quality.name = "standard";
     quality.stationarity = 0.01;
-    quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh()};
+    quality.meshes = {uniform_mesh(10), uniform_mesh(14), uniform_mesh(20)};
     quality.further_reynolds_numbers = {0.1, 0.3};
     quality.falls = 2;
     return quality;
@@ -62,15 +71,14 @@ BakeQuality high_quality() {
     BakeQuality quality;
     quality.name = "high";
     quality.least_iterations = 200;
-    quality.meshes = {coarse_mesh(), medium_mesh(), fine_mesh(), finest_mesh()};
+    quality.meshes = {uniform_mesh(10), uniform_mesh(14), uniform_mesh(20), uniform_mesh(28)};
     quality.most_directions = 28;
     quality.table_subdivisions = 12;
     quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
     quality.falls = 2;
-    quality.fall_mesh = 2;
     quality.fall_cells = 60'000;
     quality.other_closures = {{Closure::realizable_k_epsilon, Closure::realizable_k_epsilon},
-                              {Closure::rng_k_epsilon, Closure::rng_k_epsilon}};
+                              {Closure::k_omega_sst, Closure::k_omega_sst}};
     return quality;
 }
 
@@ -84,17 +92,6 @@ FlowMesh with_thin_layers(FlowMesh mesh, double first_layer) {
     const double steps = std::log(last_layer / first_layer) / std::log(1.4);
     mesh.layers = std::max(1, 1 + static_cast<int>(std::lround(steps)));
     mesh.resolves_boundary_layer = true;
-    return mesh;
-}
-
-// Beyond the medium mesh, loads need a fine wake, not a finer surface (docs/studies/closures).
-FlowMesh mesh_of_loads(const FlowMesh& mesh) {
-    if (mesh.name == fine_mesh().name) {
-        return {"mesh_wake", 10, 1.0, 4, 0, {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};
-    }
-    if (mesh.name == finest_mesh().name) {
-        return {"mesh_fine_wake", 10, 1.0, 5, 0, {{0.15, 5}, {0.6, 4}, {2.0, 3}, {4.0, 2}, {6.0, 1}}};
-    }
     return mesh;
 }
 
@@ -122,28 +119,57 @@ BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
     if (closure == Closure::k_epsilon) return quality;
     require_closure_of(closure, "loads");
     quality.loads_closure = quality.fall_closure = closure;
-    for (FlowMesh& mesh : quality.meshes) {
-        quality.turbulence_meshes.push_back(mesh);
+    const std::vector<FlowMesh> of_loads = {coarse_mesh(), medium_mesh(), wake_mesh(), fine_wake_mesh()};
+    for (std::size_t i = 0; i < quality.meshes.size(); ++i) {
+        quality.turbulence_meshes.push_back(quality.meshes[i]);
         quality.turbulence_meshes.back().name += "_turbulence";
-        mesh = with_thin_layers(mesh_of_loads(mesh), thinnest_layer);
+        quality.meshes[i] = with_thin_layers(of_loads.at(i), thinnest_layer);
     }
     // Without transition, or with it; and without any closure.
     const Closure other = closure == Closure::k_omega_sst ? Closure::k_omega_sst_lm : Closure::k_omega_sst;
     if (!quality.other_closures.empty()) {
         quality.other_closures = {{other, Closure::realizable_k_epsilon},
-                                  {Closure::laminar, Closure::rng_k_epsilon}};
+                                  {Closure::laminar, Closure::k_omega_sst}};
     }
     return quality;
 }
 
-std::vector<FlowMesh> meshes_of_falls(double reynolds_number) {
+BakeQuality with_turbulence_by(Closure closure, BakeQuality quality) {
+    const std::vector<std::string> names = turbulence_closures();
+    if (std::ranges::find(names, name_of(closure)) == names.end()) {
+        throw Error(fmt::format("k and epsilon cannot be solved by {}; choose one of {}", name_of(closure),
+                                fmt::join(names, ", ")));
+    }
+    quality.turbulence_closure = closure;
+    if (quality.turbulence_meshes.empty() && closure != quality.loads_closure) {
+        for (const FlowMesh& mesh : quality.meshes) {
+            quality.turbulence_meshes.push_back(mesh);
+            quality.turbulence_meshes.back().name += "_turbulence";
+        }
+    }
+    for (Closures& other : quality.other_closures) {
+        if (other.turbulence == closure) other.turbulence = Closure::k_epsilon;
+    }
+    return quality;
+}
+
+std::vector<std::string> turbulence_closures() {
+    std::vector<std::string> names;
+    for (const Closure closure :
+         {Closure::k_epsilon, Closure::realizable_k_epsilon, Closure::rng_k_epsilon, Closure::k_omega_sst}) {
+        names.emplace_back(name_of(closure));
+    }
+    return names;
+}
+
+std::vector<FlowMesh> meshes_of_falls(double reynolds_number, bool resolves_boundary_layer) {
     // y+ of a given thickness grows about as Re^0.9; L/470 gives less than 2 at Re 2e4.
     const double first_layer = std::min(1.0, std::pow(2e4 / reynolds_number, 0.9)) / 470.0;
     std::vector<FlowMesh> meshes;
     for (int cells = 8; cells <= 64; ++cells) {
-        const FlowMesh mesh = {fmt::format("mesh_{}", cells),           10, 20.0 / cells, 4, 0,
+        const FlowMesh mesh = {fmt::format("mesh_{}", cells),           10, 20.0 / cells, 4, 3,
                                {{0.3, 4}, {1.2, 3}, {2.5, 2}, {5.0, 1}}};
-        meshes.push_back(with_thin_layers(mesh, first_layer));
+        meshes.push_back(resolves_boundary_layer ? with_thin_layers(mesh, first_layer) : mesh);
     }
     return meshes;
 }

@@ -40,11 +40,12 @@ struct BakeQuality {
     std::vector<FlowMesh> meshes;  ///< for the loads of a compact body; a long one gets a wider box
     /// Meshes for k and epsilon, as many as `meshes`; empty where the loads' cases give k and epsilon too.
     std::vector<FlowMesh> turbulence_meshes;
-    /// The separate mesh of the falls, where they have one (add_falls), as those of samara validate do.
+    /// The mesh of the falls (add_falls), as those of samara validate have it.
     std::vector<FlowMesh> fall_meshes;
-    Closure loads_closure = Closure::k_epsilon;  ///< for loads, where the flow is not laminar
-    Closure fall_closure = Closure::k_epsilon;   ///< for falls, where the flow is not laminar
-    int least_subdivisions = 2;                  ///< of the map of solved directions, at any cost
+    Closure loads_closure = Closure::k_epsilon;       ///< for loads, where the flow is not laminar
+    Closure turbulence_closure = Closure::k_epsilon;  ///< for k and epsilon, likewise
+    Closure fall_closure = Closure::k_epsilon;        ///< for falls, where the flow is not laminar
+    int least_subdivisions = 2;                       ///< of the map of solved directions, at any cost
     int most_subdivisions = 8;
     int most_directions = 16;         ///< the limit for multiples of the least subdivisions
     double share_on_last_mesh = 0.4;  ///< share of the directions, where there is more than one mesh
@@ -55,8 +56,7 @@ struct BakeQuality {
     /// Other closures, solved in the same directions: their spread is the closure's error.
     std::vector<Closures> other_closures;
     int falls = 0;                ///< number of free falls from which the dynamic coefficients are identified
-    std::size_t fall_mesh = 1;    ///< index of the falls' mesh, where that is one of the loads'
-    double fall_cells = 20'000;   ///< approximate number of cells of a separate mesh
+    double fall_cells = 20'000;   ///< approximate number of cells of their mesh
     double fall_step = 1.0;       ///< relative to the automatic step of a fall
     double stationarity = 0.005;  ///< tolerance of the tail (body-flow/stationarity.py)
     int least_iterations = 100;   ///< for k-epsilon; half as many from a solution on another mesh
@@ -68,14 +68,21 @@ struct BakeQuality {
 /// Throws Error for a closure that solves for no omega, unless it is k_epsilon, which changes nothing.
 BakeQuality with_loads_by(Closure closure, BakeQuality quality);
 
+/// Returns the quality with another closure for k and epsilon: in cases of their own, unless the loads'
+/// closure is the same and gives them. Throws Error for a closure that `turbulence_closures` does not name.
+BakeQuality with_turbulence_by(Closure closure, BakeQuality quality);
+
+/// Returns OpenFOAM's words for the closures that k and epsilon can be solved by.
+std::vector<std::string> turbulence_closures();
+
 /// Returns the quality with another closure for the falls than for the loads. Throws Error as with_loads_by
 /// does.
 BakeQuality with_falls_by(Closure closure, BakeQuality quality);
 
-/// Returns meshes for falls whose layers resolve the boundary layer at the Reynolds number U L/nu, coarsest
-/// first: one layout with decreasing cell size, equal on all sides of the body, since any side may face the
-/// wake.
-std::vector<FlowMesh> meshes_of_falls(double reynolds_number);
+/// Returns meshes for falls, coarsest first: one layout with decreasing cell size, equal on all sides of the
+/// body, since any side may face the wake. Their layers resolve the boundary layer at the Reynolds number
+/// U L/nu, or leave it to wall functions.
+std::vector<FlowMesh> meshes_of_falls(double reynolds_number, bool resolves_boundary_layer);
 
 /// Returns the quality of that name, with k-epsilon for everything; throws Error where there is none.
 BakeQuality bake_quality(const std::string& name);

@@ -45,7 +45,7 @@ nlohmann::json base_json(const BakeRequest& request, const BakePreparation& prep
     nlohmann::json json = {{"body", request.output.string()}};
     if (!preparation.plan) return json;
     const BakePlan& plan = *preparation.plan;
-    json["cases_folder"] = case_folder_of(request.output).string();
+    json["cases_folder"] = case_folder_of(request).string();
     json["quality"] = plan.quality.name;
     json["terminal_speed"] = preparation.terminal_speed;
     json["reynolds_numbers"] = plan.reynolds_numbers();
@@ -96,7 +96,7 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& p
     }
     for (const double cells : preparation.plan->cells) json["estimated_cells"].push_back(std::round(cells));
     json["estimated_cpu_seconds"] = std::round(preparation.plan->cpu_seconds);
-    json["estimated_bytes"] = std::round(bytes_to_solve(case_folder_of(request.output), *preparation.plan));
+    json["estimated_bytes"] = std::round(bytes_to_solve(case_folder_of(request), *preparation.plan));
     return json;
 }
 
@@ -154,13 +154,13 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
         "meshes of about {:.0f} cells, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on "
         "disk\n",
         fmt::join(plan.cells, ", "), plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
-        1e-6 * bytes_to_solve(case_folder_of(request.output), plan));
+        1e-6 * bytes_to_solve(case_folder_of(request), plan));
 }
 
 void print_result(const BakeRequest& request, const BakeResult& result) {
     if (result.probes > 0) {
         print_result("{}: {} cases, in {:.0f} s; they are kept in {}\n", request.output.string(),
-                     result.probes, result.case_seconds, case_folder_of(request.output).string());
+                     result.probes, result.case_seconds, case_folder_of(request).string());
         return;
     }
     if (!result.conversion) {
@@ -196,7 +196,7 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
         "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in total), tables {:.1f} "
         "s; the cases are in {}\n",
         result.mesh_seconds, result.kirchhoff_seconds, result.case_seconds, result.cpu_seconds,
-        result.conversion_seconds, case_folder_of(request.output).string());
+        result.conversion_seconds, case_folder_of(request).string());
 }
 
 void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation) {
@@ -220,8 +220,8 @@ void warn_of_left_out_cases(const BakeRequest& request, const BakeResult& result
     for (const LeftOutCase& failed : result.left_out) {
         cases.push_back(fmt::format("{} ({})", failed.name, failed.reason));
     }
-    print_note("samara bake: warning: of {} left out after retries: {}\n",
-               case_folder_of(request.output).string(), fmt::join(cases, ", "));
+    print_note("samara bake: warning: of {} left out after retries: {}\n", case_folder_of(request).string(),
+               fmt::join(cases, ", "));
 }
 
 void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& result) {

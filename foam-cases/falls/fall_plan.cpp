@@ -140,7 +140,7 @@ std::string name_of_fall(std::size_t index) {
 BakePlan plan_of_mesh_of_falls(const Body& body, double cells, double reynolds_number,
                                const FallModel& model) {
     BakeQuality quality = bake_quality("high");
-    if (model.resolved) quality.meshes = meshes_of_falls(reynolds_number);
+    quality.meshes = meshes_of_falls(reynolds_number, model.resolved);
     BakePlan plan = plan_of_meshes(body, quality);
     const auto distance = [&](double count) { return std::abs(std::log(count / cells)); };
     const auto nearest = std::ranges::min_element(plan.cells, {}, distance) - plan.cells.begin();
@@ -259,10 +259,6 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
                double gravity, BakePlan& plan) {
     if (plan.quality.falls == 0) return;
     const FallModel model = fall_model_of(plan.quality.fall_closure);
-    const std::string mesh_of_loads = plan.quality.meshes.at(plan.quality.fall_mesh).name;
-    // On a mesh for steady loads, fine at the surface and coarse behind it, smooth bodies sink a tenth faster
-    // than on the meshes of `samara validate` (docs/studies/falls).
-    const bool has_own_mesh = model.resolved || plan.quality.fall_closure != plan.quality.loads_closure;
     double reynolds_number = 0.0;
     for (int i = 0; i < plan.quality.falls; ++i) {
         BodyPhysics physics;
@@ -276,17 +272,14 @@ void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpeci
                                   speed, duration, model);
         fall.name = name_of_fall(static_cast<std::size_t>(i));
         fall.time_step *= plan.quality.fall_step;
-        fall.mesh = has_own_mesh ? own_mesh : mesh_of_loads;
+        fall.mesh = own_mesh;
         reynolds_number = std::max(reynolds_number, fall.reynolds_number);
         plan.falls.push_back(fall);
     }
-    if (has_own_mesh) {
-        const BakePlan of_falls =
-            plan_of_mesh_of_falls(body, plan.quality.fall_cells, reynolds_number, model);
-        plan.quality.fall_meshes = of_falls.quality.meshes;
-        plan.quality.fall_meshes.front().name = own_mesh;
-        plan.cells.push_back(of_falls.cells.front());
-    }
+    const BakePlan of_falls = plan_of_mesh_of_falls(body, plan.quality.fall_cells, reynolds_number, model);
+    plan.quality.fall_meshes = of_falls.quality.meshes;
+    plan.quality.fall_meshes.front().name = own_mesh;
+    plan.cells.push_back(of_falls.cells.front());
     estimate_cost(plan);
 }
 

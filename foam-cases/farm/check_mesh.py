@@ -46,20 +46,20 @@ class Judgement:
 
 
 def judge_cells(judgement, folder, text):
-    shell = re.search(r"^\s*shell\s+(\d+)", text, re.MULTILINE)
+    near_wake = re.search(r"^\s*nearWake\s+(\d+)", text, re.MULTILINE)
     cells = re.search(r"^\s+cells:\s+(\d+)", text, re.MULTILINE)
     orthogonality = re.search(r"non-orthogonality Max: ([\d.]+) average: ([\d.]+)", text)
     judgement.facts = {
         "cells": int(cells.group(1)) if cells else 0,
-        "shell_cells": int(shell.group(1)) if shell else 0,
+        "cells_in_near_wake": int(near_wake.group(1)) if near_wake else 0,
         "max_non_orthogonality": float(orthogonality.group(1)) if orthogonality else None,
         "mean_non_orthogonality": float(orthogonality.group(2)) if orthogonality else None,
         "body_area_over_true_area": judgement.area,
     }
     judgement.errors += [line.strip(" *").rstrip(".") for line in text.splitlines() if line.startswith(" ***")]
     judgement.fatal += [error for error in judgement.errors if any(word in error for word in FATAL_ERRORS)]
-    if judgement.facts["shell_cells"] == 0:
-        judgement.fatal.append("no cell lies from 0.05 L to 0.25 L of the body")
+    if judgement.facts["cells_in_near_wake"] == 0:
+        judgement.fatal.append("no cell lies from 0.2 L to 1.5 L of the body")
 
 
 def judge_surface(judgement):

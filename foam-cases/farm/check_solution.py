@@ -16,7 +16,7 @@ import sys
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))  # which python3 -I leaves out
 from farm_script import input_hash, mesh_record, run_on_folder, stopping_error  # noqa: E402
 from case_files import Failure, CaseError, parameter, read, read_record, word, write_json  # noqa: E402
-from stationarity import AREA_UNIT, has_k_and_epsilon, whole_histories  # noqa: E402
+from stationarity import AREA_UNIT, has_turbulence_means, whole_histories  # noqa: E402
 
 
 def mean_and_deviation(rows, columns):
@@ -53,10 +53,10 @@ def check_solution(folder):
         raise CaseError(stopping_error(folder, log))
     text = read(log)
     start = rounds["averaging_start"]
-    turbulent = has_k_and_epsilon(parameters)
+    turbulent = has_turbulence_means(parameters)
     time_step = last.get("time_step", 1)
 
-    forces, moments, shell = (
+    forces, moments, near_wake = (
         [row[1:] for row in rows if row[0] >= start]
         for rows in whole_histories(folder, last["iterations"], turbulent, time_step))
     force, force_deviation = mean_and_deviation(forces, range(3))
@@ -94,9 +94,9 @@ def check_solution(folder):
         "inputs_hash": input_hash(folder),
     }
     if turbulent:
-        means, deviation = mean_and_deviation(shell, range(2))
-        record["shell"] = {"k": means[0], "epsilon": means[1],
-                           "k_deviation": deviation[0], "epsilon_deviation": deviation[1]}
+        means, deviation = mean_and_deviation(near_wake, range(2))
+        record["near_wake"] = {"k": means[0], "epsilon": means[1],
+                               "k_deviation": deviation[0], "epsilon_deviation": deviation[1]}
     write_json(os.path.join(folder, "provenance.json"), record)
 
 

@@ -39,7 +39,8 @@ std::string table_errors_as_text(const std::optional<LoadTables>& tables, const 
     if (errors.forces > 0) text += fmt::format(" {} of the force", per_cent(errors.mean_force()));
     if (errors.forces > 0 && errors.turbulent_kinetic_energies > 0) text += ",";
     if (errors.turbulent_kinetic_energies > 0) {
-        text += fmt::format(" {} of k", per_cent(errors.mean_turbulent_kinetic_energy()));
+        text += fmt::format(" {} of the wake's velocity fluctuation",
+                            per_cent(0.5 * errors.mean_turbulent_kinetic_energy()));
     }
     text += fmt::format("\n  includes: {}\n", error_sources_in_words(*tables));
     if (const std::size_t left_out = left_out_cases(*tables).size(); left_out > 0) {
@@ -74,7 +75,8 @@ void note_table_errors(BodyNotes& notes, const std::string& body, const std::opt
         worst = std::max(worst, error);
     };
     note_quantity("the force", errors.mean_force());
-    note_quantity("k", errors.mean_turbulent_kinetic_energy());
+    // The fluctuation goes with the root of k.
+    note_quantity("the wake's velocity fluctuation", 0.5 * errors.mean_turbulent_kinetic_energy());
     if (!quantities.empty()) {
         notes.add("tables", body, worst,
                   fmt::format("the tables are uncertain by {} along the motion (standard error); {}",

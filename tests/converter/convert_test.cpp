@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include "converter/falls/motion_parameters.hpp"
+#include "converter/openfoam/foam_history.hpp"
 #include "converter/tables/direction_sampling.hpp"
 #include "load_laws.hpp"
 #include "paths.hpp"
@@ -86,7 +87,8 @@ TEST_F(Convert, GivesTheTailOfTheIterationsAsError) {
     EXPECT_NEAR(error.dissipation_rate, relative * entry.dissipation_rate, 1e-10);
     const LoadTables& tables = *conversion.body.tables;
     ASSERT_EQ(tables.error_sources.front().source, ErrorSource::tail);
-    EXPECT_NEAR(tables.error_sources.front().turbulent_kinetic_energy, std::expm1(relative), 1e-5);
+    EXPECT_NEAR(tables.error_sources.front().turbulent_kinetic_energy,
+                std::pow(1.0 + 0.5 * relative, 2.0) - 1.0, 1e-8);
     EXPECT_GT(tables.errors[tables.index(0, 2, 4)].force.x(), error.force.x());
 }
 
@@ -293,10 +295,10 @@ TEST_F(Convert, RejectsThrust) {
 }
 
 TEST_F(Convert, RejectsFieldsAndHistoriesOfDifferentRuns) {
-    std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
+    std::string rows = "# Time weightedVolAverage(k) weightedVolAverage(epsilon)\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} 1 1\n", i);
-    folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat", rows);
-    EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
+    folder_.write("case_01/postProcessing/nearWake/0/volFieldValue.dat", rows);
+    EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the near wake at the time 20 is"));
     EXPECT_THAT(error(), HasSubstr("they are from different runs"));
 }
 
@@ -309,6 +311,29 @@ TEST_F(Convert, RejectsCasesOfAnotherDirectionOrReynoldsNumberThanPlanned) {
                 HasSubstr("case_00: was solved for the direction (-1, 0, 0), but plan.json has (1, 0, 0)"));
 }
 
+TEST_F(Convert, RejectsCasesWhoseKIsOfDifferentMeans) {
+    folder_.replace("case_01/postProcessing/nearWake/0/volFieldValue.dat", "weightedVolAverage(k)",
+                    "volAverage(k)");
+    folder_.replace("case_01/postProcessing/nearWake/0/volFieldValue.dat", "weightedVolAverage(epsilon)",
+                    "volAverage(epsilon)");
+    std::filesystem::rename(folder_.path() / "case_01/postProcessing/nearWake",
+                            folder_.path() / "case_01/postProcessing/shell");
+    folder_.replace("mesh/constant/polyMesh/cellZones", "1\n(\nnearWake",
+                    "2\n(\nshell\n{\n    type cellZone;\ncellLabels "
+                    "List<label> 2(1 4);\n}\nnearWake");
+    // Of (1.5, 0.5) m in cells of volumes 1 and 3 the mean by volume is 0.75 m.
+    std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
+    const FoamHistory whole =
+        read_history(folder_.path() / "case_01/postProcessing/shell/0/volFieldValue.dat");
+    for (const std::vector<double>& row : whole.rows) {
+        rows += fmt::format("{} {} {}\n", row[0], 0.75 * row[1], 0.75 * row[2]);
+    }
+    folder_.write("case_01/postProcessing/shell/0/volFieldValue.dat", rows);
+    EXPECT_THAT(error(),
+                HasSubstr("k and epsilon of case_00 are of the mean 'near wake', those of case_01 of "
+                          "'shell': tables hold one of them"));
+}
+
 TEST_F(Convert, RejectsTooFewIterations) {
     folder_.replace("case_00/provenance.json", "\"averaging_start\": 10", "\"averaging_start\": 18");
     EXPECT_THAT(error(), HasSubstr("force.dat: has 3 iterations from 18 on, too few"));
@@ -316,9 +341,9 @@ TEST_F(Convert, RejectsTooFewIterations) {
 
 TEST_F(Convert, RejectsMeshesAndFieldsThatDoNotBelongTogether) {
     folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 4)", "3(1 2 5)");
-    EXPECT_THAT(error(), HasSubstr("/V: has no value for cell 5 of the shell"));
+    EXPECT_THAT(error(), HasSubstr("/V: has no value for cell 5 of the near wake"));
     folder_.replace("mesh/constant/polyMesh/cellZones", "3(1 2 5)", "0()");
-    EXPECT_THAT(error(), HasSubstr("cellZones: the zone 'shell' has no cells"));
+    EXPECT_THAT(error(), HasSubstr("cellZones: the zone 'nearWake' has no cells"));
 }
 
 TEST_F(Convert, RejectsAPlanOfAnotherBody) {

@@ -42,10 +42,10 @@ std::string load_history(const Vector3d& mean) {
     return text;
 }
 
-std::string shell_history(const LoadEntry& entry) {
+std::string turbulence_history(const LoadEntry& entry) {
     std::string text =
-        "# Region : cellZone shell\n# Cells : 3\n# Volume : 6\n# "
-        "Time\tvolAverage(k)\tvolAverage(epsilon)\n";
+        "# Region : cellZone nearWake\n# Cells : 3\n# Volume : 6\n# "
+        "Time\tweightedVolAverage(k)\tweightedVolAverage(epsilon)\n";
     for (int i = 1; i <= iterations; ++i) {
         text +=
             fmt::format("{}\t{:.10e}\t{:.10e}\n", i, entry.turbulent_kinetic_energy * (1.0 + transient(i)),
@@ -54,14 +54,14 @@ std::string shell_history(const LoadEntry& entry) {
     return text;
 }
 
-/// A field over five cells, of which 1, 2 and 4 are the shell, of volumes 1, 2 and 3: their volume mean is
-/// `mean`, their plain mean is not.
+/// A field over five cells, of which 1, 2 and 4 are the near wake, of volumes 1, 2 and 3: their mean weighted
+/// by such a field is `mean`, their means by volume and by number are not.
 std::string field(const std::string& object, double mean) {
     return foam_header("volScalarField", object) +
            fmt::format(
                "dimensions [0 0 0 0 0 0 0];\n\ninternalField nonuniform List<scalar> \n5\n(\n{:.10e}\n"
                "{:.10e}\n{:.10e}\n{:.10e}\n{:.10e}\n)\n;\n",
-               99.0, 3.0 * mean, 0.0, 99.0, mean);
+               99.0, 1.5 * mean, 0.0, 99.0, 0.5 * mean);
 }
 
 void add_face(Surface& surface, const std::array<std::int32_t, 4>& face) {
@@ -97,7 +97,7 @@ SolvedFolder::SolvedFolder(Body body, int subdivisions, const std::vector<double
     write_body_file(path() / "body.body.h5", body_);
     write("mesh/constant/polyMesh/cellZones",
           foam_header("regIOobject", "cellZones") +
-              "1\n(\nshell\n{\n    type cellZone;\ncellLabels List<label> 3(1 2 4);\n}\n)\n");
+              "1\n(\nnearWake\n{\n    type cellZone;\ncellLabels List<label> 3(1 2 4);\n}\n)\n");
     nlohmann::json cases = nlohmann::json::array();
     for (const double reynolds_number : reynolds_numbers) {
         for (const Vector3d& direction : required_directions(body_.symmetry, subdivisions)) {
@@ -129,7 +129,7 @@ void SolvedFolder::write_case(const std::string& name, const Vector3d& direction
                       direction.y(), direction.z(), reynolds_number));
     write(folder / "postProcessing/forces/0/force.dat", load_history(std::numbers::pi / 8.0 * entry.force));
     write(folder / "postProcessing/forces/0/moment.dat", load_history(std::numbers::pi / 8.0 * entry.moment));
-    write(folder / "postProcessing/shell/0/volFieldValue.dat", shell_history(entry));
+    write(folder / "postProcessing/nearWake/0/volFieldValue.dat", turbulence_history(entry));
     write(folder / "0/k", foam_header("volScalarField", "k") + "internalField uniform 1;\n");
     write(folder / "20/k", field("k", entry.turbulent_kinetic_energy));
     write(folder / "20/epsilon", field("epsilon", entry.dissipation_rate));

@@ -14,8 +14,9 @@ namespace samara::test {
 /// A box of the given edges (m), closed, with its moments and the symmetry of three mirrors.
 Body box_body(const Vector3d& edges);
 
-/// Writes a folder of solved cases as `samara bake` and OpenFOAM leave it: a shell of three cells of unequal
-/// volume, 20 iterations of which the last 11 are averaged, and loads that follow a law, in case axes.
+/// Writes a folder of solved cases as `samara bake` and OpenFOAM leave it: a near wake of three cells of
+/// unequal volume, 20 iterations of which the last 11 are averaged, and loads that follow a law, in case
+/// axes.
 class SolvedFolder {
   public:
     using Law = std::function<LoadEntry(const Vector3d& direction, double reynolds_number)>;

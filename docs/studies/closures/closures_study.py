@@ -36,13 +36,14 @@ MESH_BEFORE = {"fine": "medium", "fine layered": "medium layered", "wake layered
                "wide layered": "medium layered"}
 
 RESOLVED = {"nutAtWall": "nutLowReWallFunction", "kAtWall": "fixedValue"}
-STEADY = {"stationarity": "0.02", "mostIterations": 400}
+FIRST_ORDER = {"convection": "limitedLinear 1", "turbulenceConvection": "upwind"}
+STEADY = {**FIRST_ORDER, "turbulenceMeans": "no", "stationarity": "0.02", "mostIterations": 400, "acceptedError": "0.03"}
 LINEAR = "linearUpwind grad(U)"
 
 
 # "inflow": turbulence intensity, and eddy viscosity over the fluid's, where they are not the template's 1 % and 1.
 def unsteady(step, steps):
-    return {"solver": "pimpleFoam", "rateOfChange": "backward", "timeStep": step, "roundIterations": 200,
+    return {**FIRST_ORDER, "turbulenceMeans": "no", "solver": "pimpleFoam", "rateOfChange": "backward", "timeStep": step, "roundIterations": 200,
             "leastIterations": steps, "mostIterations": steps, "stationarity": "0.02"}
 
 

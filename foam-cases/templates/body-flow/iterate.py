@@ -23,15 +23,16 @@ import sys
 sys.path.append(os.path.dirname(os.path.realpath(__file__)))
 from case_files import (Failure, CaseError, are_attempts, breakdown, could_not_read_state,  # noqa: E402
                         hash_of_inputs, read, read_record, say, time_folders, word, write_entries, write_json)
-from stationarity import has_k_and_epsilon, whole_histories, worst_quantity  # noqa: E402
+from stationarity import has_turbulence_means, whole_histories, worst_quantity  # noqa: E402
 
 # For each attempt: changes of parameters, further changes in its first round, and its start: by `startFrom`, from the current
 # state, or from the undisturbed flow.
 ATTEMPTS = {
     "as planned": ({}, {}, "startFrom"),
     "damped": ({"momentumRelaxation": "0.7", "turbulenceRelaxation": "0.5"}, {}, "what stands"),
-    "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4",
-                  "gradient": "cellLimited Gauss linear 1"}, {"convection": "upwind"}, "undisturbed"),
+    "cautious": ({"momentumRelaxation": "0.5", "turbulenceRelaxation": "0.4"},
+                 {"convection": "upwind", "turbulenceConvection": "upwind", "gradient": "cellLimited Gauss linear 1"},
+                 "undisturbed"),
     "half the step": ({}, {}, "startFrom"),
 }
 AFTER_RESTLESSNESS = {"as planned": "damped", "damped": "cautious"}
@@ -71,7 +72,7 @@ class Rounds:
         self.least_iterations = int(own("leastIterations"))
         self.tolerance = float(own("stationarity"))
         self.accepted = max(ACCEPTED_TOLERANCES, float(own("acceptedError")) / self.tolerance)
-        self.turbulent = has_k_and_epsilon(read("parameters"))
+        self.turbulent = has_turbulence_means(read("parameters"))
         self.solver = own("solver")
         self.log = f"log.{self.solver}"
         self.planned_step = float(own("timeStep"))

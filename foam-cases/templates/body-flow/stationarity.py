@@ -1,6 +1,6 @@
 """Tests whether a case is statistically stationary, by the quantities of the tables.
 
-These are force, moment, and k and epsilon over the shell. Residuals are not used: that of the pressure settles long
+These are force, moment, and the means of k and epsilon over the near wake. Residuals are not used: that of the pressure settles long
 before k, and never where the wake oscillates. Means are taken over the last half of the iterations. A quantity is
 stationary when half the difference between the means of the window's two halves (a drift) and the standard error from
 six batches (an oscillation) are both within the tolerance.
@@ -40,9 +40,9 @@ def unsteadiness(values):
     return max(drift, math.sqrt(squares / (BATCHES * (BATCHES - 1))))
 
 
-def has_k_and_epsilon(parameters):
-    """Whether the turbulence model in the text of a file `parameters` solves for k and epsilon."""
-    return word(parameters, "simulationType") == "RAS" and word(parameters, "closure").endswith(("Epsilon", "KE"))
+def has_turbulence_means(parameters):
+    """Whether a case with the text of a file `parameters` averages k and epsilon near the body."""
+    return word(parameters, "turbulenceMeans") == "yes"
 
 
 def whole_history(folder, name, file, last, time_step=1.0):
@@ -61,7 +61,7 @@ def whole_histories(folder, last, turbulent, time_step=1.0):
     """Returns the histories of force, moment, and k and epsilon (empty where not `turbulent`). Raises CaseError as whole_history."""
     return (whole_history(folder, "forces", "force.dat", last, time_step),
             whole_history(folder, "forces", "moment.dat", last, time_step),
-            whole_history(folder, "shell", "volFieldValue.dat", last, time_step) if turbulent else [])
+            whole_history(folder, "nearWake", "volFieldValue.dat", last, time_step) if turbulent else [])
 
 
 def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
@@ -69,8 +69,8 @@ def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
 
     `first`: the iteration after which the current settings are used; `last`: the last iteration. Raises Diverged where values are
     not finite, not positive (k, epsilon) or too large, CaseError where a history is not whole."""
-    forces, moments, shell = whole_histories(folder, last, turbulent, time_step)
-    for row in forces + moments + shell:
+    forces, moments, means = whole_histories(folder, last, turbulent, time_step)
+    for row in forces + moments + means:
         if not all(map(math.isfinite, row)):
             raise Diverged(f"a value at iteration {row[0]:g} is not finite")
     start = int(first + (last - first) // 2 + 1)
@@ -86,9 +86,9 @@ def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
             raise Diverged(f"the {name} coefficient reached {scale:.3g}")
         weights[name] = math.hypot(*map(unsteadiness, components)) / (tolerance * scale)
     for i, name in enumerate(("k", "epsilon") if turbulent else (), 1):
-        values = window(shell, i)
+        values = window(means, i)
         if mean(values) <= 0.0:
-            raise Diverged(f"{name} in the shell is not positive")
+            raise Diverged(f"the mean of {name} is not positive")
         weights[name] = unsteadiness(values) / (TURBULENCE_TOLERANCES * tolerance * mean(values))
     worst = max(weights, key=weights.get)
     return weights[worst], worst, start

@@ -193,10 +193,16 @@ class JudgedBody {
             if (!(level.turbulent_kinetic_energy > 0.0)) continue;
             const double per_size = physics_.turbulence == Turbulence::table ? 1.0 / (size * size)
                                                                              : 1.0;  // else it is the world's
+            const double renewal = level.dissipation_rate / level.turbulent_kinetic_energy;
+            const WakeNoise& noise = rated_->constants.wake_noise;
+            const bool by_way =
+                rated_->constants.langevin == Langevin::wake && noise.rate_by_dissipation == 0.0;
             const double rate =
-                rated_->constants.langevin == Langevin::wake
-                    ? centroid_velocity(pose, *rated_).norm() / (wake_persistence * rated_->length) * per_size
-                    : turbulence_rate * level.dissipation_rate / level.turbulent_kinetic_energy * per_size;
+                per_size * (by_way
+                                ? noise.rate_by_way * centroid_velocity(pose, *rated_).norm() / rated_->length
+                                : (rated_->constants.langevin == Langevin::wake ? noise.rate_by_dissipation
+                                                                                : turbulence_rate) *
+                                      renewal);
             squared_rates_ += rate * rate;
             ++samples_;
         }

@@ -29,6 +29,11 @@ Json object_of(const Json& object, const char* key) {
     return found != object.end() && found->is_object() ? *found : Json::object();
 }
 
+/// Returns the mean of k of a case that has its own: of earlier cases over a shell.
+std::optional<double> k_of(const Json& one) {
+    return number_of(object_of(one, one.contains("near_wake") ? "near_wake" : "shell"), "k");
+}
+
 std::optional<Vector3d> direction_of(const Json& object) {
     const auto found = object.find("direction");
     if (found == object.end() || !found->is_array() || found->size() != 3) return std::nullopt;
@@ -52,7 +57,7 @@ std::optional<CaseRecord> record_of(const Json& one, const Matrix3d& axes) {
                       .direction = axes * *direction,
                       .reynolds_number = *reynolds_number,
                       .drag = *drag,
-                      .k = number_of(object_of(one, "shell"), "k"),
+                      .k = k_of(one),
                       .cells = number_of(mesh, "cells").value_or(0.0),
                       .closure = text_of(one, "closure"),
                       .verdict = text_of(one, "verdict"),
@@ -63,7 +68,7 @@ std::optional<CaseRecord> record_of(const Json& one, const Matrix3d& axes) {
                       .final_residual = number_of(object_of(one, "final_residuals"), "p").value_or(0.0)};
     // Where loads and turbulence come from different closures, k belongs to another case.
     if (const Json other = object_of(one, "turbulence"); !other.empty()) {
-        record.k = number_of(object_of(other, "shell"), "k");
+        record.k = k_of(other);
     }
     return record;
 }

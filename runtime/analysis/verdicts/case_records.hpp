@@ -16,7 +16,7 @@ struct CaseRecord {
     Vector3d direction;           ///< unit vector: the body's velocity relative to the fluid, body axes
     double reynolds_number;       ///< U L / nu
     double drag;                  ///< coefficient on A = pi L^2/4
-    std::optional<double> k;      ///< k / U^2, mean over the shell; none of a laminar case
+    std::optional<double> k;      ///< k / U^2 near the body; none of a laminar case
     double cells = 0.0;           ///< number of cells of its mesh; 0 where it is unknown
     std::string closure;          ///< OpenFOAM's word
     std::string verdict;          ///< "stationary", "restless"

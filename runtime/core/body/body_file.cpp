@@ -107,8 +107,8 @@ struct TableColumn {
 constexpr TableColumn table_columns[] = {
     {"force", 3, "F / (rho U^2 A / 2), body axes"},
     {"moment", 3, "M / (rho U^2 A L / 2) about the centroid of the volume, body axes"},
-    {"turbulent_kinetic_energy", 1, "k / U^2, mean over the shell from 0.05 L to 0.25 L"},
-    {"dissipation_rate", 1, "epsilon L / U^3, mean over the shell from 0.05 L to 0.25 L"},
+    {"turbulent_kinetic_energy", 1, "k / U^2, the mean that /tables names as turbulence_mean"},
+    {"dissipation_rate", 1, "epsilon L / U^3, the same mean"},
 };
 
 double& component(LoadEntry& entry, std::size_t column, int index) {
@@ -171,6 +171,7 @@ void write_tables(Hdf5Writer& file, const LoadTables& tables) {
     file.attribute("/tables", "reference_length", tables.reference_length);
     file.attribute("/tables", "subdivisions", std::int64_t{tables.subdivisions});
     file.attribute("/tables", "quality", std::string_view(tables.quality));
+    file.attribute("/tables", "turbulence_mean", std::string_view(name_of(tables.turbulence_mean)));
 }
 
 LoadTables read_tables(const Hdf5Reader& file) {
@@ -183,6 +184,14 @@ LoadTables read_tables(const Hdf5Reader& file) {
     const auto error = [&](const char* what) {
         return Error(fmt::format("{}: /tables {}; bake the body again", file.path().string(), what));
     };
+    tables.turbulence_mean = TurbulenceMean::shell;
+    if (file.has_attribute("/tables", "turbulence_mean")) {
+        const std::string mean = file.text_attribute("/tables", "turbulence_mean");
+        if (mean == name_of(TurbulenceMean::near_wake))
+            tables.turbulence_mean = TurbulenceMean::near_wake;
+        else if (mean != name_of(TurbulenceMean::shell))
+            throw error("has an unknown turbulence_mean");
+    }
     if (subdivisions < 1 || subdivisions > 1024) throw error("has a map of an invalid size");
     tables.subdivisions = static_cast<int>(subdivisions);
     if (!(tables.reference_length > 0.0)) throw error("has a reference length that is not positive");

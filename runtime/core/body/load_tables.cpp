@@ -9,6 +9,11 @@
 #include "samara/core/surface/octahedral_map.hpp"
 
 namespace samara {
+
+const char* name_of(TurbulenceMean mean) {
+    return mean == TurbulenceMean::shell ? "shell" : "near wake";
+}
+
 namespace {
 
 void add_weighted(LoadEntry& sum, const LoadEntry& entry, double weight) noexcept {

@@ -9,14 +9,23 @@
 
 namespace samara {
 
+/// The mean over the fluid that k and epsilon of a table are.
+enum class TurbulenceMean {
+    shell,     ///< by volume, over distances from 0.05 L to 0.25 L from the body: of earlier files
+    near_wake  ///< weighted by k, over distances from 0.2 L to 1.5 L: int k^2 / int k, int k epsilon / int k
+};
+
+/// Returns "shell" or "near wake".
+const char* name_of(TurbulenceMean mean);
+
 /// One entry of the tables, made nondimensional with L = sqrt(S/pi), A = pi L^2/4 and U, the speed relative
 /// to the fluid. Vectors are in body (shape) axes; moments are about the centroid of the volume.
 struct LoadEntry {
     Vector3d force = Vector3d::Zero();  ///< F / (rho U^2 A / 2)
     /// M / (rho U^2 A L / 2), the total moment of the fluid in a steady translation
     Vector3d moment = Vector3d::Zero();
-    double turbulent_kinetic_energy = 0.0;  ///< k / U^2, mean over the shell of volume from 0.05 L to 0.25 L
-    double dissipation_rate = 0.0;          ///< epsilon L / U^3, mean over the same shell
+    double turbulent_kinetic_energy = 0.0;  ///< k / U^2 (TurbulenceMean)
+    double dissipation_rate = 0.0;          ///< epsilon L / U^3, likewise
 };
 
 /// The standard errors of an entry's values, in the same units; of vectors, of each component.
@@ -36,6 +45,7 @@ struct LoadTables {
     /// Whether Stokes' resistance is added to the entries at every Reynolds number; else it is added below
     /// the first one alone, and fades out there.
     bool stokes_throughout = false;
+    TurbulenceMean turbulence_mean = TurbulenceMean::near_wake;
     std::vector<LoadEntry> entries;      ///< in the order of index()
     std::vector<LoadEntryError> errors;  ///< of the entries, in their order; empty where unknown
     std::string quality;                 ///< of the bake: smoke, preview, ...

@@ -212,8 +212,12 @@ StepConstants step_constants(const ImmersedBody& body) {
                      : body.langevin;
     c.has_side_pressure =
         body.loads != Loads::none && body.turbulence == Turbulence::table && c.langevin == Langevin::wake;
+    if (c.langevin == Langevin::wake) {
+        c.wake_noise = body.tables->turbulence_mean == TurbulenceMean::shell ? wake_noise_of_shell
+                                                                             : wake_noise_of_near_wake;
+    }
     if (c.has_side_pressure) {
-        const double pressure = wake_side_pressure * static_cast<double>(c.steady_factor);
+        const double pressure = c.wake_noise.side_pressure * static_cast<double>(c.steady_factor);
         c.side_pressure = symmetric(pressure / body.reference_area * body.projected_area_tensor);
     }
     c.turbulent_kinetic_energy = body.turbulent_kinetic_energy;

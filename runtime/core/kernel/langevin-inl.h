@@ -156,21 +156,24 @@ HWY_INLINE void advance_sampled_turbulence(const StepConstants& c, const Level<V
         now.kept * step_state.sampled_rotation + (deviation * V(c.inverse_eddy_length)) * normals.rotation;
 }
 
-/// Updates the velocity fluctuation by the wake: its time scale is the time in which the body travels a
-/// number of its lengths, and its rms is smaller the more the body rotates on its path (docs/studies/noise).
+/// Updates the velocity fluctuation by the wake, whose rms is smaller the more the body rotates on its path
+/// (docs/studies/noise).
 template <class V>
 HWY_INLINE void advance_wake(const StepConstants& c, const Level<V>& level, V h, const Triple<V>& normals,
                              StepState<V>& step_state) {
     const Triple<V> velocity = centroid_velocity(c, step_state);
     const V lengths_per_second = V(c.length * c.inverse_eddy_length) * root(dot(velocity, velocity));
-    const Renewal<V> now = renewal(V(1.0 / wake_persistence) * lengths_per_second, h);
+    const V rate = c.wake_noise.rate_by_dissipation > 0.0
+                       ? V(c.wake_noise.rate_by_dissipation) * turbulence_rate(level)
+                       : V(c.wake_noise.rate_by_way) * lengths_per_second;
+    const Renewal<V> now = renewal(rate, h);
     const V going = lengths_per_second * lengths_per_second;
     const V rotation_rate =
         V(wake_order * wake_order) * dot(step_state.angular_velocity, step_state.angular_velocity);
     const V least(1e-200);
     const V unordered = going / larger(least, going + rotation_rate);
-    const V deviation = now.added * V(wake_fluctuation_share) * unordered *
-                        root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
+    const V deviation =
+        now.added * V(c.wake_noise.share) * unordered * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
     step_state.sampled_velocity = now.kept * step_state.sampled_velocity + deviation * normals;
     step_state.sampled_rotation = no_vector<V>();
 }

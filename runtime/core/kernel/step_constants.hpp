@@ -35,6 +35,22 @@ struct LoadPatch {
     DirectionTable force;    ///< on its own faces; without rows it bears its share of the whole's
 };
 
+/// The fluctuation of the loads by a body's own wake, as if the relative velocity fluctuated. Where k is zero
+/// the flow is laminar, and does not fluctuate. The pressure of shed vortices also acts on the body's sides:
+/// a force across the path of rho |w|/2 times the velocity fluctuation, times the body's projected area in
+/// the force's direction, times side_pressure. Measured on bodies that are held (docs/studies/noise).
+struct WakeNoise {
+    double share = 0.0;  ///< rms of each component over the root of 2k/3
+    double side_pressure = 0.0;
+    double rate_by_dissipation = 0.0;  ///< of its renewal, over epsilon/k; 0: the next
+    double rate_by_way = 0.0;          ///< likewise, over |w|/L
+};
+
+/// By the mean that the tables' k and epsilon are (TurbulenceMean). The eddies of the near wake are smaller
+/// than the body, over which they average out; those of the shell hold a small part of the energy.
+inline constexpr WakeNoise wake_noise_of_near_wake = {0.14, 1.2, 1.0, 0.0};
+inline constexpr WakeNoise wake_noise_of_shell = {0.3, 1.15, 0.0, 1.0 / 2.5};
+
 /// The constants of a body for the step, computed once. Body axes about the centroid; lengths are in units of
 /// l (m), the power of two nearest to the body's L, so that they convert without rounding, and masses in
 /// units of m*, a third of the trace of K's linear block: all numbers are near one.
@@ -97,17 +113,8 @@ struct StepConstants {
     DirectionTable turbulence_by_direction;            ///< k, epsilon l/L, 0, 0
     double turbulent_kinetic_energy = 0;               ///< m^2/s^2, where constant
     double dissipation_rate = 0;                       ///< m^2/s^3, where constant
+    WakeNoise wake_noise;
 };
-
-/// The fluctuation of the loads by a body's own wake, as if the relative velocity fluctuated:
-/// wake_fluctuation_share is the rms of each component over the root of 2k/3, and wake_persistence the time
-/// scale over L/|w|. Where k is zero the flow is laminar, and does not fluctuate. The pressure of shed
-/// vortices also acts on the body's sides: a force across the path of rho |w|/2 times the velocity
-/// fluctuation, times the body's projected area in the force's direction, times wake_side_pressure. Measured
-/// on a sphere, a disc, an ellipsoid and a sheet that are held (docs/studies/noise).
-inline constexpr double wake_fluctuation_share = 0.3;
-inline constexpr double wake_side_pressure = 1.15;
-inline constexpr double wake_persistence = 2.5;
 
 /// A rotating body sheds in phase with its rotation: the rms of the fluctuation is multiplied by w^2 / (w^2 +
 /// (wake_order L omega)^2). Chosen by ensembles of falls of two discs (docs/studies/noise).

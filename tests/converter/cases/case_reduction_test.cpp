@@ -77,7 +77,7 @@ TEST_F(CaseReduction, ReadsTheShellOfTheMeshThatACaseNames) {
     });
     std::string zones = read_bytes(folder_.path() / "mesh/constant/polyMesh/cellZones");
     folder_.write("mesh_coarse/constant/polyMesh/cellZones", zones.replace(zones.find("1 2 4"), 5, "0 2 4"));
-    EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the shell at the time 20 is"));
+    EXPECT_THAT(error(), HasSubstr("case_01: the mean k over the near wake at the time 20 is"));
     std::filesystem::remove_all(folder_.path() / "mesh");
     std::filesystem::remove_all(folder_.path() / "mesh_coarse");
     EXPECT_THAT(error(), HasSubstr("case_00/constant/polyMesh/cellZones: does not exist; check the name"));
@@ -122,7 +122,7 @@ TEST_F(CaseReduction, TakesTheTurbulenceOfAnotherCaseOfTheSameFlow) {
     std::filesystem::copy(folder_.case_path(0), folder_.case_path(1),
                           std::filesystem::copy_options::recursive);
     folder_.change_plan(take_turbulence_from_second);
-    std::filesystem::remove_all(folder_.path() / "case_00/postProcessing/shell");
+    std::filesystem::remove_all(folder_.path() / "case_00/postProcessing/nearWake");
     folder_.replace("case_00/provenance.json", "kEpsilon", "kOmegaSST");
     const std::vector<SolvedCase> cases = reduced();
     ASSERT_EQ(cases.size(), 5U);
@@ -184,7 +184,7 @@ TEST_F(CaseReduction, AveragesTheLastQuarterByDefault) {
 TEST_F(CaseReduction, JoinsTheHistoriesOfRounds) {
     const LoadEntry whole = reduced().front().sample.entry;
     for (const char* const name :
-         {"forces/0/force.dat", "forces/0/moment.dat", "shell/0/volFieldValue.dat"}) {
+         {"forces/0/force.dat", "forces/0/moment.dat", "nearWake/0/volFieldValue.dat"}) {
         const std::string file = std::string("case_00/postProcessing/") + name;
         const std::string text = read_bytes(folder_.path() / file);
         const std::size_t heading = text.find("\n1\t") + 1;
@@ -193,9 +193,9 @@ TEST_F(CaseReduction, JoinsTheHistoriesOfRounds) {
         std::string later = file;
         later.replace(later.find("/0/"), 3, "/14/");
         folder_.write(later, text.substr(0, heading) + text.substr(line));
-        const bool shell = file.ends_with("volFieldValue.dat");
+        const bool is_scalar = file.ends_with("volFieldValue.dat");
         const std::string first = text.substr(0, text.find("\n16\t") + 1) +
-                                  (shell ? "16\t9 9\n17\t9" : "16\t(9 9 9)\t(0 0 0)\t(0 0 0)\n17\t(9");
+                                  (is_scalar ? "16\t9 9\n17\t9" : "16\t(9 9 9)\t(0 0 0)\t(0 0 0)\n17\t(9");
         folder_.write(file, first);
     }
     EXPECT_EQ(test::difference(reduced().front().sample.entry, whole), 0.0);
@@ -224,9 +224,9 @@ TEST_F(CaseReduction, ReadsTheForcesOfTheFoundation) {
 }
 
 TEST_F(CaseReduction, OfLaminarCasesHasNoTurbulence) {
-    std::filesystem::remove_all(folder_.case_path(3) / "postProcessing/shell");
+    std::filesystem::remove_all(folder_.case_path(3) / "postProcessing/nearWake");
     std::filesystem::remove_all(folder_.case_path(3) / "20");
-    EXPECT_THAT(error(), HasSubstr("case_03/postProcessing/shell: has no volFieldValue.dat"));
+    EXPECT_THAT(error(), HasSubstr("case_03/postProcessing/nearWake: has no volFieldValue.dat"));
     folder_.replace("case_03/provenance.json", "kEpsilon", "laminar");
     const DirectionSample sample = reduced().at(3).sample;
     EXPECT_EQ(sample.entry.turbulent_kinetic_energy, 0.0);
@@ -241,25 +241,53 @@ TEST_F(CaseReduction, RejectsTurbulenceThatIsNotPositive) {
         const std::string text = read_bytes(folder_.path() / file);
         folder_.write(file, text.substr(0, text.find("internalField")) + "internalField uniform -1;\n");
     }
-    std::string rows = "# Time volAverage(k) volAverage(epsilon)\n";
+    std::string rows = "# Time weightedVolAverage(k) weightedVolAverage(epsilon)\n";
     for (int i = 1; i <= 20; ++i) rows += fmt::format("{} -1 -1\n", i);
-    folder_.write("case_03/postProcessing/shell/0/volFieldValue.dat", rows);
-    EXPECT_THAT(error(), HasSubstr("case_03/postProcessing/shell/0/volFieldValue.dat: the k is -1 at the "
+    folder_.write("case_03/postProcessing/nearWake/0/volFieldValue.dat", rows);
+    EXPECT_THAT(error(), HasSubstr("case_03/postProcessing/nearWake/0/volFieldValue.dat: the k is -1 at the "
                                    "time 10, but cannot be negative"));
-    folder_.write("case_03/postProcessing/shell/0/volFieldValue.dat",
+    folder_.write("case_03/postProcessing/nearWake/0/volFieldValue.dat",
                   std::regex_replace(rows, std::regex("-1"), "1"));
     EXPECT_THAT(error(), HasSubstr("case_03/20/k: is -1 in cell 1, which is impossible"));
 }
 
 TEST_F(CaseReduction, HoldsTheFieldsAgainstTheHistoryAtTheirOwnTime) {
     move("case_00/20", "case_00/19");
-    EXPECT_THAT(error(), HasSubstr("case_00: the mean k over the shell at the time 19 is 0.014 in the fields "
-                                   "and 0.01386 in postProcessing/shell: they are from different runs"));
+    EXPECT_THAT(error(),
+                HasSubstr("case_00: the mean k over the near wake at the time 19 is 0.014 in the fields "
+                          "and 0.01386 in postProcessing: they are from different runs"));
     move("case_00/19", "case_00/25");
     EXPECT_THAT(error(), HasSubstr("case_00: the fields were last written at the time 25, which is missing "
-                                   "in postProcessing/shell"));
+                                   "in the history of k"));
     move("case_00/25", "elsewhere");
     EXPECT_THAT(error(), HasSubstr("case_00: has no written iteration"));
+}
+
+/// Rewrites a case as earlier versions left it: with means by volume over the zone `shell`.
+TEST_F(CaseReduction, TakesTheShellsMeansOfEarlierCases) {
+    const double k = reduced().front().sample.entry.turbulent_kinetic_energy;
+    EXPECT_EQ(reduced().front().turbulence_mean, TurbulenceMean::near_wake);
+    for (const char* name : {"case_00", "case_01", "case_02", "case_03", "case_04", "case_05"}) {
+        const std::string folder = std::string(name) + "/postProcessing/";
+        const std::string text = read_bytes(folder_.path() / (folder + "nearWake/0/volFieldValue.dat"));
+        folder_.write(folder + "shell/0/volFieldValue.dat",
+                      std::regex_replace(text, std::regex("weightedVolAverage"), "volAverage"));
+        std::filesystem::remove_all(folder_.path() / (folder + "nearWake"));
+        for (const char* field : {"k", "epsilon"}) {
+            // Of (1.5, 0, 0.5) m in cells of volumes 1, 2 and 3 the mean by volume is m/2.
+            const std::string file = std::string(name) + "/20/" + field;
+            std::string twice =
+                "FoamFile { version 2.0; format ascii; class volScalarField; object any; }\n"
+                "internalField nonuniform List<scalar> 5(";
+            for (const double value : read_scalar_field(folder_.path() / file).values) {
+                twice += fmt::format("{} ", 2.0 * value);
+            }
+            folder_.write(file, twice + ");\n");
+        }
+    }
+    folder_.replace("mesh/constant/polyMesh/cellZones", "nearWake", "shell");
+    EXPECT_EQ(reduced().front().turbulence_mean, TurbulenceMean::shell);
+    EXPECT_DOUBLE_EQ(reduced().front().sample.entry.turbulent_kinetic_energy, k);
 }
 
 TEST_F(CaseReduction, NamesBrokenFilesInOneLine) {
@@ -276,8 +304,8 @@ TEST_F(CaseReduction, NamesBrokenFilesInOneLine) {
     folder_.replace("case_00/20/k", "volScalarField", "volVectorField");
     EXPECT_THAT(error(), HasSubstr("case_00/20/k:7: holds a volVectorField, not a volScalarField"));
     folder_.write("case_00/20/k", text);
-    folder_.replace("mesh/constant/polyMesh/cellZones", "shell", "wake");
-    EXPECT_THAT(error(), HasSubstr("cellZones:15: has no cell zone 'shell' (it has: wake)"));
+    folder_.replace("mesh/constant/polyMesh/cellZones", "nearWake", "wake");
+    EXPECT_THAT(error(), HasSubstr("cellZones:15: has no cell zone 'nearWake' (it has: wake)"));
 }
 
 TEST_F(CaseReduction, RejectsTheSameCaseTwice) {
@@ -358,12 +386,12 @@ class UsersCases : public CaseReduction {
         const double epsilon = speed_ * speed_ * speed_ / length_;
         scale_vectors(name + "/postProcessing/forces/0/force.dat", force);
         scale_vectors(name + "/postProcessing/forces/0/moment.dat", force * length_);
-        const std::string shell = name + "/postProcessing/shell/0/volFieldValue.dat";
-        std::string text = "# Time volAverage(k) volAverage(epsilon)\n";
-        for (const std::vector<double>& row : read_history(folder_.path() / shell).rows) {
+        const std::string means = name + "/postProcessing/nearWake/0/volFieldValue.dat";
+        std::string text = "# Time weightedVolAverage(k) weightedVolAverage(epsilon)\n";
+        for (const std::vector<double>& row : read_history(folder_.path() / means).rows) {
             text += fmt::format("{} {} {}\n", row[0], k * row[1], epsilon * row[2]);
         }
-        folder_.write(shell, text);
+        folder_.write(means, text);
         scale_field(name + "/20/k", k);
         scale_field(name + "/20/epsilon", epsilon);
         scale_field(name + "/20/V", length_ * length_ * length_);

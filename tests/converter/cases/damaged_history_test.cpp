@@ -21,9 +21,9 @@ using testing::EndsWith;
 using testing::HasSubstr;
 
 const std::string forces = "case_01/postProcessing/forces/";
-const std::string shell = "case_01/postProcessing/shell/";
+const std::string means = "case_01/postProcessing/nearWake/";
 const std::vector<std::string> history_names = {forces + "0/force.dat", forces + "0/moment.dat",
-                                                shell + "0/volFieldValue.dat"};
+                                                means + "0/volFieldValue.dat"};
 
 /// Six cases, solved in two runs: from 0, and from 14 on to 20. The means are of the times from 10 on.
 class DamagedHistory : public testing::Test {
@@ -70,7 +70,7 @@ class DamagedHistory : public testing::Test {
             {"averaging_start", 10},
             {"force", {force.x(), force.y(), force.z()}},
             {"moment", {moment.x(), moment.y(), moment.z()}},
-            {"shell", {{"k", entry.turbulent_kinetic_energy}, {"epsilon", entry.dissipation_rate}}}};
+            {"near_wake", {{"k", entry.turbulent_kinetic_energy}, {"epsilon", entry.dissipation_rate}}}};
         folder_.write("case_01/provenance.json", noted.dump());
     }
 

@@ -81,8 +81,8 @@ class SolvedFlow : public testing::Test {
         // A cube of edge 1, whose area is that of a sphere of diameter 1.382.
         PlannedCase planned{name, {0.6, 0.48, 0.64}, 1382.0};
         planned.scales.length = 1.382;
-        Shells shells;
-        return reduce_case(folder_->path(), plan, planned, shells).sample.entry;
+        MeshZones zones;
+        return reduce_case(folder_->path(), plan, planned, zones).sample.entry;
     }
 
     static void expect_equal(const LoadEntry& a, const LoadEntry& b, double tolerance) {
@@ -120,13 +120,12 @@ TEST_F(SolvedFlow, FieldsAreTheSameInEveryFormat) {
 
 TEST_F(SolvedFlow, HistoriesAndFieldsAgreeFarWithinWhatIsAsked) {
     for (const char* const format : {"ascii", "binary"}) {
-        Shells shells;
-        const ShellMeans means = mean_over_shell(path(format), path(format), shells);
+        MeshZones zones;
+        const TurbulenceHistory turbulence = read_turbulence_history(path(format));
+        const WrittenMeans means = written_means(path(format), path(format), turbulence, zones);
         EXPECT_EQ(means.time, 40.0);
-        const FoamHistory history =
-            read_joined_history(path(format) / "postProcessing" / "shell", "volFieldValue");
-        const double k = history.column("volAverage(k)", 40.0).at(0);
-        const double epsilon = history.column("volAverage(epsilon)", 40.0).at(0);
+        const double k = turbulence.means.rows.back().at(turbulence.k_column);
+        const double epsilon = turbulence.means.rows.back().at(turbulence.epsilon_column);
         EXPECT_NEAR(means.turbulent_kinetic_energy, k, 1e-8 * k);
         EXPECT_NEAR(means.dissipation_rate, epsilon, 1e-8 * epsilon);
     }

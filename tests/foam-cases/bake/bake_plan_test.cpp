@@ -124,7 +124,7 @@ TEST(BakePlan, TakesTheTurbulenceOfEveryTurbulentFlowFromACaseOfItsOwn) {
         EXPECT_EQ(other->reynolds_number, entry.reynolds_number);
         EXPECT_THAT(other->mesh, testing::EndsWith("_turbulence"));
         EXPECT_THAT(std::string(name_of(other->closure)),
-                    testing::AnyOf("kEpsilon", "realizableKE", "RNGkEpsilon"));
+                    testing::AnyOf("kEpsilon", "realizableKE", "kOmegaSST"));
     }
     EXPECT_EQ(of_purpose(plan, CasePurpose::turbulence).size(), turbulent);
 }
@@ -164,7 +164,7 @@ TEST(BakePlan, SolvesFurtherReynoldsNumbersInFewDirectionsFromTheMainOne) {
         if (entry.reynolds_number == 10200.0) continue;
         ++further;
         EXPECT_EQ(entry.purpose, CasePurpose::table);
-        EXPECT_EQ(entry.mesh, "mesh_medium");
+        EXPECT_EQ(entry.mesh, "mesh_uniform_14");
         const auto start = std::ranges::find(plan.cases, entry.start_from, &BakeCase::name);
         ASSERT_NE(start, plan.cases.end());
         EXPECT_EQ(start->mesh, entry.mesh);

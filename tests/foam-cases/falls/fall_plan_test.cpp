@@ -265,14 +265,14 @@ TEST(FallPlan, TakesTheMeshWhoseCellsAreNearestAsARatio) {
     const auto mesh_at = [&](double cells) {
         return plan_falls(planned.body, cells, {planned.fall}, planned.model);
     };
-    EXPECT_EQ(mesh_at(5000).falls.front().mesh, "mesh_coarse");
-    EXPECT_EQ(mesh_at(20000).falls.front().mesh, "mesh_medium");
-    EXPECT_EQ(mesh_at(40000).falls.front().mesh, "mesh_fine");
+    for (const double cells : {6000.0, 20'000.0, 40'000.0}) {
+        EXPECT_NEAR(std::log(mesh_at(cells).cells.front() / cells), 0.0, 0.2);
+    }
     const BakePlan plan = mesh_at(1e7);
-    EXPECT_EQ(plan.falls.front().mesh, "mesh_finest");
+    EXPECT_EQ(plan.falls.front().mesh, "mesh_64");
     EXPECT_TRUE(plan.cases.empty());
     ASSERT_EQ(plan.quality.meshes.size(), 1u);
-    EXPECT_EQ(plan.quality.meshes.front().name, "mesh_finest");
+    EXPECT_FALSE(plan.quality.meshes.front().resolves_boundary_layer);
     const double of_fall = estimated_fall_seconds(plan.falls.front(), plan.cells.front());
     EXPECT_GT(plan.cpu_seconds, of_fall);
     EXPECT_LT(plan.cpu_seconds, 2.0 * of_fall);
@@ -300,8 +300,8 @@ TEST(FallPlan, TakesAsManyCellsAsAreAskedForWhereTheBoundaryLayerIsResolved) {
 }
 
 TEST(FallPlan, HasThinnerLayersAtHigherReynoldsNumbers) {
-    EXPECT_EQ(meshes_of_falls(1e3).front().layers, meshes_of_falls(2e4).front().layers);
-    EXPECT_EQ(meshes_of_falls(1e5).front().layers, meshes_of_falls(2e4).front().layers + 4);
+    EXPECT_EQ(meshes_of_falls(1e3, true).front().layers, meshes_of_falls(2e4, true).front().layers);
+    EXPECT_EQ(meshes_of_falls(1e5, true).front().layers, meshes_of_falls(2e4, true).front().layers + 4);
 }
 
 BakePlan bake_with_falls(const Body& body, const BakeQuality& quality) {
@@ -323,17 +323,17 @@ TEST(FallPlan, IsOfItsOwnTypeNotOfAQuality) {
     EXPECT_EQ(type_of_plan(plan_json(bake)), CaseType::bake);
 }
 
-TEST(IdentificationFalls, AreTwoAtStandardOnTheMediumMeshAndAtHighOnTheFine) {
+TEST(IdentificationFalls, AreTwoAtStandardAndAtHighOnAMeshOfTheirOwn) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     EXPECT_TRUE(bake_with_falls(body, bake_quality("smoke")).falls.empty());
     EXPECT_TRUE(bake_with_falls(body, bake_quality("preview")).falls.empty());
     const BakePlan standard = bake_with_falls(body, bake_quality("standard"));
     ASSERT_EQ(standard.falls.size(), 2u);
     EXPECT_EQ(standard.falls[0].name, "fall_00");
-    EXPECT_EQ(standard.falls[0].mesh, "mesh_medium");
+    EXPECT_NEAR(cells_of(standard, standard.falls[0].mesh), 20'000.0, 2000.0);
     const BakePlan high = bake_with_falls(body, bake_quality("high"));
     ASSERT_EQ(high.falls.size(), 2u);
-    for (const FreeFall& fall : high.falls) EXPECT_EQ(fall.mesh, "mesh_fine");
+    for (const FreeFall& fall : high.falls) EXPECT_NEAR(cells_of(high, fall.mesh), 60'000.0, 6000.0);
     EXPECT_EQ(high.falls[1].name, "fall_01");
     EXPECT_GT((high.falls[0].gravity - high.falls[1].gravity).norm(), 0.3 * high.falls[0].gravity.norm());
 }
@@ -378,8 +378,7 @@ TEST(IdentificationFalls, ByAnotherClosureHaveAMeshOfTheirOwnOfAsManyCells) {
     ASSERT_EQ(plan.quality.fall_meshes.size(), 1u);
     EXPECT_TRUE(plan.quality.fall_meshes.front().resolves_boundary_layer);
     for (const FreeFall& fall : plan.falls) EXPECT_EQ(fall.mesh, plan.quality.fall_meshes.front().name);
-    const double medium = cells_of(plan, "mesh_medium");
-    EXPECT_NEAR(cells_of(plan, plan.falls[0].mesh), medium, 0.2 * medium);
+    EXPECT_NEAR(cells_of(plan, plan.falls[0].mesh), 20'000.0, 4000.0);
     EXPECT_EQ(plan_json(plan)["meshes"].size(), 4u);
     EXPECT_THROW(static_cast<void>(with_falls_by(Closure::laminar, bake_quality("standard"))), Error);
 }
@@ -414,8 +413,8 @@ TEST(IdentificationFalls, CountInTheCostOfTheBake) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     const BakePlan plan = bake_with_falls(body, bake_quality("standard"));
     const double without = plan_bake(body, bake_quality("standard"), 1e4).cpu_seconds;
-    EXPECT_NEAR(plan.cpu_seconds - without,
-                2.0 * estimated_fall_seconds(plan.falls[0], cells_of(plan, "mesh_medium")), 1e-6 * without);
+    const double falls = 2.0 * estimated_fall_seconds(plan.falls[0], cells_of(plan, plan.falls[0].mesh));
+    EXPECT_NEAR(plan.cpu_seconds - without, falls, 0.01 * falls);  // and their mesh
     BakePlan again = plan;
     estimate_cost(again);
     EXPECT_EQ(again.cpu_seconds, plan.cpu_seconds);
@@ -424,8 +423,8 @@ TEST(IdentificationFalls, CountInTheCostOfTheBake) {
 TEST(IdentificationFalls, StandInThePlanWithTheirMeshes) {
     const nlohmann::json json =
         plan_json(bake_with_falls(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("high")));
-    EXPECT_EQ(json["falls"], (nlohmann::json{{{"name", "fall_00"}, {"mesh", "mesh_fine"}},
-                                             {{"name", "fall_01"}, {"mesh", "mesh_fine"}}}));
+    EXPECT_EQ(json["falls"], (nlohmann::json{{{"name", "fall_00"}, {"mesh", "mesh_falls"}},
+                                             {{"name", "fall_01"}, {"mesh", "mesh_falls"}}}));
 }
 
 TEST(IdentificationStart, IsObliqueToAllPrincipalAxesHoweverTheShapeLies) {

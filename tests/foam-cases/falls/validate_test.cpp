@@ -151,7 +151,7 @@ TEST_F(Validate, SolvesByAnotherClosureWhereOneIsNamed) {
         return validate(words).json();
     };
     const nlohmann::json functions = plan({"--closure", "kEpsilon", "--cells", "6000"});
-    EXPECT_EQ(functions["mesh"], "mesh_coarse");
+    EXPECT_EQ(functions["mesh"], "mesh_11");
     EXPECT_EQ(functions["closure"], "kEpsilon");
     EXPECT_LT(functions["time_step"].get<double>(), plan({})["time_step"].get<double>());
     EXPECT_EQ(plan({"--closure", "laminar"})["closure"], "laminar");

@@ -135,7 +135,7 @@ TEST_F(CaseByHand, OfAFlowGivesTheSameWhenItIsCleanedAndRunAgain) {
     ASSERT_EQ(run(flow, {"Allrun"}), 0) << said();
     const Files solution = solution_in(flow);
     for (const char* name : {"12/U", "12/k", "constant/polyMesh/points", "postProcessing/forces/0/force.dat",
-                             "postProcessing/shell/0/volFieldValue.dat"}) {
+                             "postProcessing/nearWake/0/volFieldValue.dat"}) {
         EXPECT_TRUE(solution.contains(name)) << name;
     }
     ASSERT_EQ(run(flow, {"Allclean"}), 0) << said();

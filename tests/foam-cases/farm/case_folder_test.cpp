@@ -83,14 +83,24 @@ TEST_F(CaseFolder, HoldsAPlainCaseForEachDirectionOnOneMesh) {
     }
 }
 
-TEST_F(CaseFolder, TakesAWakeThatSwingsWithATenthOfErrorWhereTheBoundaryLayerIsResolved) {
-    const BakePlan plan =
-        plan_bake(body_, with_loads_by(Closure::k_omega_sst_lm, bake_quality("smoke")), 1e4);
+TEST_F(CaseFolder, AveragesKAndEpsilonBySecondOrderInTheCasesThatTheTablesTakeThemFrom) {
+    const BakePlan plan = plan_bake(body_, with_loads_by(Closure::k_omega_sst_lm, bake_quality("high")), 1e4);
     const std::string text = read_bytes(foam_cases / "templates/body-flow/parameters");
+    std::size_t of_omega = 0;
     for (const BakeCase& entry : plan.cases) {
-        const bool resolved = entry.closure == Closure::k_omega_sst_lm;
-        EXPECT_EQ(entry_of(case_parameters(text, plan, entry), "acceptedError"), resolved ? "0.1" : "0.03");
+        const std::string parameters = case_parameters(text, plan, entry);
+        const bool averages = entry.mesh.ends_with("_turbulence") && entry.closure != Closure::laminar;
+        EXPECT_EQ(entry_of(parameters, "turbulenceMeans"), averages ? "yes" : "no") << entry.name;
+        if (!averages) continue;
+        EXPECT_EQ(entry_of(parameters, "convection"), "linearUpwind grad(U)");
+        EXPECT_EQ(entry_of(parameters, "turbulenceConvection"), "limitedLinear 1");
+        const bool omega = entry.closure == Closure::k_omega_sst;
+        of_omega += omega ? 1 : 0;
+        EXPECT_EQ(entry_of(parameters, "solvesForOmega"), omega ? "yes" : "no");
+        EXPECT_EQ(entry_of(parameters, "dissipationField"),
+                  omega ? "turbulenceProperties:epsilon" : "epsilon");
     }
+    EXPECT_GT(of_omega, 0U);
 }
 
 TEST_F(CaseFolder, CanBeOpenedByParaviewAndCopiedWithoutLinksThatLeadOutOfIt) {
@@ -298,7 +308,7 @@ TEST_F(StrangeCaseFolder, WhoseFieldsOrMeshHoldMoreThanDataIsRejected) {
 TEST_F(StrangeCaseFolder, KeepsWhatRunsLeaveBehind) {
     for (const char* name :
          {"log.simpleFoam", "round", "rounds.json", "rounds.json.part", "0/uniform/time", "12/uniform/time",
-          "postProcessing/shell/0/volFieldValue.dat", "processor0/12/U"}) {
+          "postProcessing/nearWake/0/volFieldValue.dat", "processor0/12/U"}) {
         fs::create_directories((first() / name).parent_path());
         write(first() / name,
               name == std::string("12/uniform/time") ? "FoamFile { format ascii; }\nvalue 12;\n" : "");

@@ -188,7 +188,8 @@ TEST_F(FallCase, HoldsAllThatItNeedsToBeRunByHand) {
           "constant/turbulenceProperties", "system/controlDict"}) {
         EXPECT_TRUE(fs::exists(fall / name)) << name;
     }
-    EXPECT_EQ(fs::read_symlink(fall / "constant/polyMesh"), "../../mesh_coarse/constant/polyMesh");
+    EXPECT_EQ(fs::read_symlink(fall / "constant/polyMesh"),
+              "../../" + plan_.falls.front().mesh + "/constant/polyMesh");
     EXPECT_EQ(free_fall_json(read_free_fall(fall)), free_fall_json(plan_.falls.front()));
     EXPECT_NE((fs::status(fall / "fall.py").permissions() & fs::perms::owner_exec), fs::perms::none);
 }

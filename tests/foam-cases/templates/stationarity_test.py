@@ -24,7 +24,7 @@ class Case:
             rows = range(start + 1, start + 101)
             self.write("forces", start, "force.dat", [(i, AREA_UNIT * force(i), 0.0, 0.0) for i in rows])
             self.write("forces", start, "moment.dat", [(i, 0.0, 0.0, 0.0) for i in rows])
-            self.write("shell", start, "volFieldValue.dat", [(i, k(i), 0.02) for i in rows])
+            self.write("nearWake", start, "volFieldValue.dat", [(i, k(i), 0.02) for i in rows])
 
     def write(self, name, start, file, rows):
         folder = os.path.join(self.folder.name, "postProcessing", name, str(start))
@@ -79,7 +79,7 @@ class Stationarity(unittest.TestCase):
             Case(200, k=lambda i: -0.01).judge()
 
     def test_a_history_without_its_last_iterations_is_refused(self):
-        for file in ("forces/100/force.dat", "forces/100/moment.dat", "shell/100/volFieldValue.dat"):
+        for file in ("forces/100/force.dat", "forces/100/moment.dat", "nearWake/100/volFieldValue.dat"):
             for rows in ([], [(101, 1.0, 0.0, 0.0), (103, 1.0, 0.0, 0.0)]):
                 case = Case(200)
                 case.write(*file.split("/"), rows)

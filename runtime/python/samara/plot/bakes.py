@@ -9,7 +9,7 @@ from .style import (BLUE, BOTTOM, GRAY, ORANGE, TOP, WIDTH, airy, count_logarith
                     new_figure,
                     panel, quarter)
 
-_HISTORIES = (("drag", "Drag coefficient"), ("moment", "Moment coefficient, its size"), ("k", "k/U² of the shell"),
+_HISTORIES = (("drag", "Drag coefficient"), ("moment", "Moment coefficient, its size"), ("k", "k/U² near the body"),
               ("residuals", "Residual of the pressure, last round"))
 _SETTLING = 0.1  # share of a history that may leave the panel, while the flow starts
 

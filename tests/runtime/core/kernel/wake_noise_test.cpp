@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -17,9 +18,10 @@ namespace {
 
 const Surroundings weightless{.gravity = Vector3d::Zero()};
 
-ImmersedBody ellipsoid_with_a_wake(double density) {
-    ImmersedBody body =
-        test::immersed(test::baked_ellipsoid({0.01, 0.02, 0.04}), density, test::water(), Loads::table);
+ImmersedBody ellipsoid_with_a_wake(double density, TurbulenceMean mean = TurbulenceMean::near_wake) {
+    Body ellipsoid = test::baked_ellipsoid({0.01, 0.02, 0.04});
+    ellipsoid.tables->turbulence_mean = mean;
+    ImmersedBody body = test::immersed(ellipsoid, density, test::water(), Loads::table);
     body.turbulence = Turbulence::table;
     body.langevin = Langevin::wake;
     prepare(body);
@@ -59,14 +61,25 @@ WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, 
     return found;
 }
 
-TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStep) {
-    const ImmersedBody body = ellipsoid_with_a_wake(1e9);
-    for (const double speed : {0.22, 0.44}) {
+/// The time scale of the fluctuation (s).
+double renewal_time(const ImmersedBody& body, const Vector3d& velocity) {
+    const TurbulenceLevel level = turbulence_level(body, velocity);
+    const WakeNoise& noise = body.constants.wake_noise;
+    return noise.rate_by_dissipation > 0.0
+               ? level.turbulent_kinetic_energy / (noise.rate_by_dissipation * level.dissipation_rate)
+               : body.length / (noise.rate_by_way * velocity.norm());
+}
+
+TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStepAndTheMeanOfK) {
+    for (const auto& [mean, speed] : {std::pair{TurbulenceMean::near_wake, 0.22},
+                                      {TurbulenceMean::near_wake, 0.44},
+                                      {TurbulenceMean::shell, 0.22}}) {
+        const ImmersedBody body = ellipsoid_with_a_wake(1e9, mean);
         const Vector3d velocity = speed * Vector3d(2.0, 0.0, 1.0).normalized();
         const double energy = turbulence_level(body, velocity).turbulent_kinetic_energy;
-        const double time = wake_persistence * body.length / speed;
-        const Matrix3d expected =
-            wake_fluctuation_share * wake_fluctuation_share * 2.0 / 3.0 * energy * Matrix3d::Identity();
+        const double time = renewal_time(body, velocity);
+        const double share = body.constants.wake_noise.share;
+        const Matrix3d expected = share * share * 2.0 / 3.0 * energy * Matrix3d::Identity();
         for (const double step_by_time : {0.2, 2.0}) {
             const WakeStatistics found = statistics_of(body, moving_at(velocity), step_by_time * time);
             EXPECT_LT((found.wake_fluctuation - expected).cwiseAbs().maxCoeff(), 0.02 * expected.trace());
@@ -78,7 +91,7 @@ TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStep) {
 TEST(WakeNoise, IsTheWeakerTheMoreTheBodyTurnsOnItsWay) {
     const ImmersedBody body = ellipsoid_with_a_wake(1e9);
     const Vector3d velocity(0.4, 0.0, 0.2);
-    const double time = wake_persistence * body.length / velocity.norm();
+    const double time = renewal_time(body, velocity);
     const double straight = statistics_of(body, moving_at(velocity), time).wake_fluctuation.trace();
     const double rate = velocity.norm() / body.length;  // lengths gone in a second
     for (const double turns : {0.1, 0.25, 1.0}) {
@@ -134,8 +147,8 @@ TEST(WakeNoise, PressesOnTheSidesAcrossThePath) {
     const Vector3d with = stepped(body, wake_fluctuation, h, state).velocity.tail<3>();
     const Vector3d seen = state.orientation.conjugate() * wake_fluctuation;
     const Vector3d relative = 0.22 * path - seen;
-    const Vector3d pressed =
-        wake_side_pressure * 0.5 * body.fluid_density * relative.norm() * (body.projected_area_tensor * seen);
+    const Vector3d pressed = body.constants.wake_noise.side_pressure * 0.5 * body.fluid_density *
+                             relative.norm() * (body.projected_area_tensor * seen);
     const Vector3d across = pressed - pressed.dot(relative) / relative.squaredNorm() * relative;
     body.projected_area_tensor.setZero();
     prepare(body);

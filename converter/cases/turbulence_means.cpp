@@ -1,4 +1,4 @@
-#include "converter/cases/shell_means.hpp"
+#include "converter/cases/turbulence_means.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -125,10 +125,10 @@ std::vector<double> values_at(const FoamField<double>& field, const std::vector<
     for (const std::int64_t cell : cells) {
         const auto index = static_cast<std::size_t>(cell);
         if (cell < 0 || !field.covers(index)) {
-            throw Error(
-                fmt::format("{}: has no value for cell {} of the shell; mesh and field do not match; solve "
-                            "the case again",
-                            file.string(), cell));
+            throw Error(fmt::format(
+                "{}: has no value for cell {} of the near wake; mesh and field do not match; solve "
+                "the case again",
+                file.string(), cell));
         }
         values.push_back(field[index]);
     }
@@ -143,61 +143,82 @@ void require_positive(double value, std::int64_t cell, const fs::path& file) {
                     file.string(), value, cell));
 }
 
-/// Returns the volumes of the shell's cells: by the field V, or from the mesh.
-std::vector<double> shell_volumes(const fs::path& fields, Shell& shell) {
+/// Returns the volumes of the zone's cells: by the field V, or from the mesh.
+std::vector<double> zone_volumes(const fs::path& fields, MeshZone& zone) {
     const fs::path file = fields / "V";
     if (!foam_file_exists(file)) {
-        if (foam_file_exists(shell.poly_mesh / "points")) return Shells::volumes(shell);
+        if (foam_file_exists(zone.poly_mesh / "points")) return MeshZones::volumes(zone);
         throw Error(
             fmt::format("{}: is missing, and so is the mesh that would give it; run 'postProcess -func "
                         "writeCellVolumes -latestTime' in the case",
                         file.string()));
     }
-    std::vector<double> volumes = values_at(read_scalar_field(file), shell.cells, file);
-    for (std::size_t i = 0; i < volumes.size(); ++i) require_positive(volumes[i], shell.cells[i], file);
+    std::vector<double> volumes = values_at(read_scalar_field(file), zone.cells, file);
+    for (std::size_t i = 0; i < volumes.size(); ++i) require_positive(volumes[i], zone.cells[i], file);
     return volumes;
 }
 
+/// Integrals of the weight (1 or k), and of k and epsilon times it.
 struct Sums {
-    double volume = 0.0;
+    double weight = 0.0;
     double turbulent_kinetic_energy = 0.0;
     double dissipation_rate = 0.0;
 };
 
-void add_part(const FieldPart& part, Shells& shells, Sums& sums) {
-    Shell& shell = shells.of(part.mesh);
-    const std::vector<double> volumes = shell_volumes(part.fields, shell);
-    const auto integral = [&](const char* name) {
+void add_part(const FieldPart& part, const TurbulenceHistory& history, MeshZones& zones, Sums& sums) {
+    MeshZone& zone = zones.of(part.mesh, history.zone);
+    const auto values_of = [&](const std::string& name) {
         const fs::path file = part.fields / name;
-        const std::vector<double> values = values_at(read_scalar_field(file), shell.cells, file);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            require_positive(values[i], shell.cells[i], file);
-            sum += values[i] * volumes[i];
-        }
-        return sum;
+        std::vector<double> values = values_at(read_scalar_field(file), zone.cells, file);
+        for (std::size_t i = 0; i < values.size(); ++i) require_positive(values[i], zone.cells[i], file);
+        return values;
     };
-    for (const double volume : volumes) sums.volume += volume;
-    sums.turbulent_kinetic_energy += integral("k");
-    sums.dissipation_rate += integral("epsilon");
+    std::vector<double> weights = zone_volumes(part.fields, zone);
+    const std::vector<double> k = values_of("k");
+    const std::vector<double> epsilon = values_of(history.dissipation_field);
+    for (std::size_t i = 0; i < k.size(); ++i) {
+        const double weight = history.mean == TurbulenceMean::near_wake ? k[i] * weights[i] : weights[i];
+        sums.weight += weight;
+        sums.turbulent_kinetic_energy += weight * k[i];
+        sums.dissipation_rate += weight * epsilon[i];
+    }
 }
 
 }  // namespace
 
-Shell& Shells::of(const fs::path& folder) {
-    const auto found = shells_.find(folder);
-    if (found != shells_.end()) return found->second;
+TurbulenceHistory read_turbulence_history(const fs::path& case_folder) {
+    const fs::path folder = case_folder / "postProcessing";
+    TurbulenceHistory history{TurbulenceMean::near_wake, "nearWake", "epsilon", {}, 0, 0};
+    std::string operation = "weightedVolAverage";
+    if (!fs::exists(folder / history.zone) && fs::exists(folder / "shell")) {
+        history.mean = TurbulenceMean::shell;
+        history.zone = "shell";
+        operation = "volAverage";
+    }
+    history.means = read_joined_history(folder / history.zone, "volFieldValue");
+    const auto column = [&](const std::string& field) { return fmt::format("{}({})", operation, field); };
+    const std::string of_omega = "turbulenceProperties:epsilon";
+    if (history.means.has(column(of_omega))) history.dissipation_field = of_omega;
+    history.k_column = history.means.index(column("k"));
+    history.epsilon_column = history.means.index(column(history.dissipation_field));
+    return history;
+}
+
+MeshZone& MeshZones::of(const fs::path& folder, const std::string& name) {
+    const Zone key(folder, name);
+    const auto found = zones_.find(key);
+    if (found != zones_.end()) return found->second;
     const fs::path poly_mesh = folder / "constant" / "polyMesh";
-    Shell shell{poly_mesh, read_cell_zone(poly_mesh / "cellZones", "shell"), {}};
-    return shells_.emplace(folder, std::move(shell)).first->second;
+    MeshZone zone{poly_mesh, read_cell_zone(poly_mesh / "cellZones", name), {}};
+    return zones_.emplace(key, std::move(zone)).first->second;
 }
 
-const std::vector<double>& Shells::volumes(Shell& shell) {
-    if (shell.volumes.empty()) shell.volumes = cell_volumes(shell.poly_mesh, shell.cells);
-    return shell.volumes;
+const std::vector<double>& MeshZones::volumes(MeshZone& zone) {
+    if (zone.volumes.empty()) zone.volumes = cell_volumes(zone.poly_mesh, zone.cells);
+    return zone.volumes;
 }
 
-std::optional<double> Shells::area(const fs::path& folder, const std::vector<std::string>& patches) {
+std::optional<double> MeshZones::area(const fs::path& folder, const std::vector<std::string>& patches) {
     const Patches key(folder, patches);
     const auto found = areas_.find(key);
     if (found != areas_.end()) return found->second;
@@ -209,17 +230,18 @@ double last_written_time(const fs::path& folder) {
     return std::max(last_time(folder), processors.empty() ? 0.0 : last_time(processors.front()));
 }
 
-ShellMeans mean_over_shell(const fs::path& folder, const fs::path& mesh, Shells& shells) {
+WrittenMeans written_means(const fs::path& folder, const fs::path& mesh, const TurbulenceHistory& history,
+                           MeshZones& zones) {
     const WrittenTime written = last_written(folder, mesh);
     Sums sums;
-    for (const FieldPart& part : written.parts) add_part(part, shells, sums);
-    if (!(sums.volume > 0.0)) {
-        throw Error(
-            fmt::format("{}: the zone 'shell' has no cells; the mesh is too coarse",
-                        (written.parts.front().mesh / "constant" / "polyMesh" / "cellZones").string()));
+    for (const FieldPart& part : written.parts) add_part(part, history, zones, sums);
+    if (!(sums.weight > 0.0)) {
+        throw Error(fmt::format(
+            "{}: the zone '{}' has no cells, or k is 0 in them; use a finer mesh, or solve the case again",
+            (written.parts.front().mesh / "constant" / "polyMesh" / "cellZones").string(), history.zone));
     }
-    return {written.parts.front().fields, written.time, sums.turbulent_kinetic_energy / sums.volume,
-            sums.dissipation_rate / sums.volume};
+    return {written.parts.front().fields, written.time, sums.turbulent_kinetic_energy / sums.weight,
+            sums.dissipation_rate / sums.weight};
 }
 
 }  // namespace samara
