@@ -106,7 +106,7 @@ class CaseByHand : public testing::Test {
         return folder;
     }
 
-    /// A folder with a fall of five steps on the mesh of mesh_coarse beside it.
+    /// A folder with a fall of five steps on the mesh of mesh_11 beside it.
     [[nodiscard]] fs::path fall_case(const std::string& name, Closure closure) const {
         FreeFall fall;
         fall.reynolds_number = 1e4;
@@ -166,7 +166,7 @@ TEST_F(CaseByHand, RunsEveryProgramOfOpenFoamByTheWordsOfItsContainer) {
     set_parameters(second, {{"startFrom", "flow"}});
     ASSERT_EQ(run_subprocess(words, folder_ / "said", second), 0) << said();
     EXPECT_THAT(read_bytes(folder_ / "ran"), HasSubstr("mapFields\n"));
-    fs::rename(flow, place_ / "mesh_coarse");
+    fs::rename(flow, place_ / "mesh_11");
     const fs::path fall = fall_case("fall", Closure::k_epsilon);
     ASSERT_EQ(run_subprocess(words, folder_ / "said", fall), 0) << said();
     EXPECT_THAT(read_bytes(folder_ / "ran"), HasSubstr("pimpleFoam\n"));
@@ -223,10 +223,16 @@ TEST_F(CaseByHand, SolvesByTheModelThatItsParametersName) {
         const char* field;
     };
     const std::map<std::string, Model> models = {
-        {"sst", {{{"closure", "kOmegaSST"}}, "12/omega"}},
-        {"transition", {{{"closure", "kOmegaSSTLM"}}, "12/gammaInt"}},
-        {"laminar in time", {{{"simulationType", "laminar"}}, "0.6/U"}},
-        {"eddies in time", {{{"simulationType", "LES"}, {"closure", "kOmegaSSTDDES"}}, "0.6/omega"}}};
+        {"sst",
+         {{{"closure", "kOmegaSST"},
+           {"solvesForOmega", "yes"},
+           {"dissipationField", "turbulenceProperties:epsilon"}},
+          "12/turbulenceProperties:epsilon"}},
+        {"transition", {{{"closure", "kOmegaSSTLM"}, {"turbulenceMeans", "no"}}, "12/gammaInt"}},
+        {"laminar in time", {{{"simulationType", "laminar"}, {"turbulenceMeans", "no"}}, "0.6/U"}},
+        {"eddies in time",
+         {{{"simulationType", "LES"}, {"closure", "kOmegaSSTDDES"}, {"turbulenceMeans", "no"}},
+          "0.6/omega"}}};
     for (const auto& [name, model] : models) {
         const fs::path folder = flow_case(name);
         fs::create_directory_symlink("../../first/constant/polyMesh", folder / "constant/polyMesh");
@@ -282,7 +288,7 @@ TEST_F(CaseByHand, IsNotLedAstrayByTheShellsSearchPathForFolders) {
 }
 
 TEST_F(CaseByHand, OfAFallGivesTheSameWhenItIsCleanedAndRunAgain) {
-    const fs::path mesh = flow_case("mesh_coarse");
+    const fs::path mesh = flow_case("mesh_11");
     ASSERT_EQ(run(mesh, {"Allrun", "mesh"}), 0) << said();
     const fs::path folder = fall_case("fall", Closure::k_epsilon);
     const fs::path linked = folder / "constant" / fs::read_symlink(folder / "constant/polyMesh");
@@ -301,7 +307,7 @@ TEST_F(CaseByHand, OfAFallGivesTheSameWhenItIsCleanedAndRunAgain) {
 }
 
 TEST_F(CaseByHand, OfAFallSolvesByTheClosureWithTransition) {
-    ASSERT_EQ(run(flow_case("mesh_coarse"), {"Allrun", "mesh"}), 0) << said();
+    ASSERT_EQ(run(flow_case("mesh_11"), {"Allrun", "mesh"}), 0) << said();
     const fs::path folder = fall_case("fall", Closure::k_omega_sst_lm);
     ASSERT_EQ(run(folder, {"Allrun"}), 0) << said();
     EXPECT_TRUE(fs::exists(folder / "0.04/gammaInt"));
