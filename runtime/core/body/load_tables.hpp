@@ -45,8 +45,8 @@ struct LoadTables {
     /// Whether Stokes' resistance is added to the entries at every Reynolds number; else it is added below
     /// the first one alone, and fades out there.
     bool stokes_throughout = false;
-    TurbulenceMean turbulence_mean = TurbulenceMean::near_wake;
-    std::vector<LoadEntry> entries;      ///< in the order of index()
+    TurbulenceMean turbulence_mean = TurbulenceMean::near_wake;  ///< what k and epsilon are
+    std::vector<LoadEntry> entries;                              ///< in the order of index()
     std::vector<LoadEntryError> errors;  ///< of the entries, in their order; empty where unknown
     std::string quality;                 ///< of the bake: smoke, preview, ...
     std::string provenance;              ///< JSON text: one object for each solved case (docs/file-formats)
