@@ -51,18 +51,6 @@ struct BakeOptions {
 
 constexpr const char* no_falls = "none";
 
-/// Returns the quality of a bake of k and epsilon alone: by default that of the tables.
-BakeQuality quality_of_turbulence(const BakeOptions& options, bool is_given) {
-    const Body body = read_body_file(options.input);
-    const std::string own = body.tables ? body.tables->quality : "";
-    const std::vector<std::string> names = bake_quality_names();
-    const bool is_known = std::ranges::find(names, own) != names.end();
-    BakeQuality quality = bake_quality(is_given || !is_known ? options.quality : own);
-    quality.loads_closure = quality.turbulence_closure = closure_of(options.turbulence);
-    quality.falls = 0;
-    return quality;
-}
-
 BakeQuality quality_of(const BakeOptions& options) {
     const Closure loads =
         options.loads.empty() ? usual_loads_closure(options.quality) : closure_of(options.loads);
@@ -93,6 +81,22 @@ void require_falls(const BakeOptions& options, const Arguments& arguments) {
     }
 }
 
+/// Returns the quality of a bake of k and epsilon alone, by that closure.
+BakeQuality quality_of_turbulence(const std::string& name, const std::string& closure) {
+    BakeQuality quality = bake_quality(name);
+    quality.loads_closure = quality.turbulence_closure = closure_of(closure);
+    quality.falls = 0;
+    return quality;
+}
+
+/// Returns the body of a file with tables. Throws Error where it has none.
+Body baked_body(const std::string& file) {
+    Body body = read_body_file(file);
+    if (body.tables) return body;
+    throw Error(fmt::format(
+        "{}: has no tables whose k and epsilon could be replaced; bake it without --turbulence-only", file));
+}
+
 BakeRequest request_for_shape(const BakeOptions& options, const Arguments& arguments) {
     if (options.probes > 0 && fs::path(options.output).extension() != ".csv") {
         throw Error(
@@ -112,9 +116,14 @@ BakeRequest request_for_shape(const BakeOptions& options, const Arguments& argum
         request.mass.density = options.density;
     }
     request.other_density = options.other_density;
-    request.turbulence_only = options.turbulence_only;
-    request.quality = options.turbulence_only ? quality_of_turbulence(options, arguments.given("--quality"))
-                                              : quality_of(options);
+    request.quality = quality_of(options);
+    if (options.turbulence_only) {
+        request.baked = baked_body(options.input);
+        const std::vector<std::string> names = bake_quality_names();
+        const std::string& own = request.baked->tables->quality;
+        const bool by_own = !arguments.given("--quality") && std::ranges::find(names, own) != names.end();
+        request.quality = quality_of_turbulence(by_own ? own : options.quality, options.turbulence);
+    }
     request.inflow = inflow_of(options);
     request.probes = options.probes;
     return request;

@@ -208,11 +208,6 @@ void require_noted(const CaseSource& source, const std::string& name, const Vect
                     name, 100.0 * (mean - noted).norm() / (noted.norm() + noise)));
 }
 
-/// Returns the means of k and epsilon in a provenance.json.
-const nlohmann::json& noted_turbulence(const nlohmann::json& provenance) {
-    return provenance.at(provenance.contains("near_wake") ? "near_wake" : "shell");
-}
-
 /// Throws where the means differ from those that provenance.json holds since the case was solved, if it does.
 void require_as_noted(const CaseSource& source, const nlohmann::json& provenance,
                       const std::vector<Tail>& tails) {
@@ -228,9 +223,10 @@ void require_as_noted(const CaseSource& source, const nlohmann::json& provenance
         require_noted(source, "moment", tails[1].mean, vector(provenance.at("moment")),
                       1e-3 * source.planned.scales.length * force.norm());
         if (tails.size() == 2) return;
-        const nlohmann::json& noted = noted_turbulence(provenance);
-        require_noted(source, "k", tails[2].mean, scalar(noted.at("k")), 0.0);
-        require_noted(source, "epsilon", tails[3].mean, scalar(noted.at("epsilon")), 0.0);
+        const nlohmann::json* const noted = turbulence_means(provenance);
+        if (noted == nullptr) throw source.error("provenance.json holds no means of k and epsilon");
+        require_noted(source, "k", tails[2].mean, scalar(noted->at("k")), 0.0);
+        require_noted(source, "epsilon", tails[3].mean, scalar(noted->at("epsilon")), 0.0);
     } catch (const nlohmann::json::exception& reason) {
         throw source.error(
             fmt::format("in provenance.json an entry is missing or of the wrong type ({})", reason.what()));

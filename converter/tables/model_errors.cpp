@@ -88,13 +88,16 @@ void add(AllVariances& all, const Group& group, const LoadEntry& variance, const
     const auto add_load = [&](Variances& sum, const Vector3d& squares, int components, double size) {
         if (components > 0 && size > 0.0) sum.add(squares.sum() / (components * size * size), degrees);
     };
-    add_load(all.force, variance.force, allowed.force, scale.of_force(group.table.force));
-    add_load(all.moment, variance.moment, allowed.moment, scale.of_moment(group.table.moment));
+    const ErrorMetrics size = scale.at(group.table);
+    add_load(all.force, variance.force, allowed.force, size.force);
+    add_load(all.moment, variance.moment, allowed.moment, size.moment);
     if (!group.turbulent) return;
-    const double k = scale.of_root_of_k(group.table.turbulent_kinetic_energy);
-    const double epsilon = scale.of_root_of_epsilon(group.table.dissipation_rate);
-    all.turbulent_kinetic_energy.add(variance.turbulent_kinetic_energy / (k * k), degrees);
-    all.dissipation_rate.add(variance.dissipation_rate / (epsilon * epsilon), degrees);
+    const auto add_scalar = [&](Variances& sum, double square, double of) {
+        sum.add(square / (of * of), degrees);
+    };
+    add_scalar(all.turbulent_kinetic_energy, variance.turbulent_kinetic_energy,
+               size.turbulent_kinetic_energy);
+    add_scalar(all.dissipation_rate, variance.dissipation_rate, size.dissipation_rate);
 }
 
 const LoadScale& scale_at(double reynolds_number, const std::vector<double>& reynolds_numbers,
@@ -105,20 +108,11 @@ const LoadScale& scale_at(double reynolds_number, const std::vector<double>& rey
 
 }  // namespace
 
-double LoadScale::of_force(const Vector3d& value) const {
-    return std::hypot(value.norm(), 0.5 * force);
-}
-
-double LoadScale::of_moment(const Vector3d& value) const {
-    return std::hypot(value.norm(), 0.5 * moment);
-}
-
-double LoadScale::of_root_of_k(double root) const {
-    return std::hypot(root, 0.5 * root_of_k);
-}
-
-double LoadScale::of_root_of_epsilon(double root) const {
-    return std::hypot(root, 0.5 * root_of_epsilon);
+ErrorMetrics LoadScale::at(const LoadEntry& entry) const {
+    const auto floored = [](double size, double mean) { return std::hypot(size, 0.5 * mean); };
+    return {floored(entry.force.norm(), rms.force), floored(entry.moment.norm(), rms.moment),
+            floored(entry.turbulent_kinetic_energy, rms.turbulent_kinetic_energy),
+            floored(entry.dissipation_rate, rms.dissipation_rate)};
 }
 
 std::optional<RelativeErrors> model_errors(CasePurpose purpose, const Symmetry& symmetry,

@@ -10,18 +10,12 @@ namespace samara {
 
 /// The magnitude of loads and turbulence at one Reynolds number, to which their model errors are relative.
 struct LoadScale {
-    double force = 0.0;  ///< root mean squares over the directions
-    double moment = 0.0;
-    double root_of_k = 0.0;
-    double root_of_epsilon = 0.0;
+    ErrorMetrics rms;  ///< root mean squares over the directions; of turbulence in_fit_units()
 
-    /// Returns the scale in one direction: sqrt(|F|^2 + (rms F / 2)^2), likewise for the moment. The error
-    /// grows with the load, with a lower limit where the load vanishes, by the symmetry or in a direction
-    /// that is itself uncertain.
-    [[nodiscard]] double of_force(const Vector3d& force) const;
-    [[nodiscard]] double of_moment(const Vector3d& moment) const;
-    [[nodiscard]] double of_root_of_k(double root) const;
-    [[nodiscard]] double of_root_of_epsilon(double root) const;
+    /// Returns the scales of an entry in_fit_units(): of force sqrt(|F|^2 + (rms F / 2)^2), the others
+    /// likewise. The error grows with the value, with a lower limit where the value vanishes, by the symmetry
+    /// or in a direction that is itself uncertain.
+    [[nodiscard]] ErrorMetrics at(const LoadEntry& entry) const;
 };
 
 /// Standard errors for all directions, relative to their LoadScale; of turbulence in_fit_units().

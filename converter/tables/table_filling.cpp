@@ -77,8 +77,8 @@ void fill_nodes(ReynoldsTable& table, int subdivisions) {
         epsilon += entry.dissipation_rate;
         directions += 1.0;
     });
-    table.scale = {std::sqrt(force / directions), std::sqrt(moment / directions), std::sqrt(k / directions),
-                   std::sqrt(epsilon / directions)};
+    const auto rms = [&](double sum) { return std::sqrt(sum / directions); };
+    table.scale.rms = {rms(force), rms(moment), rms(k), rms(epsilon)};
 }
 
 /// Returns the variance by the interpolation at the centre of a cell.
@@ -119,11 +119,11 @@ std::vector<LoadEntryError> variances_around_nodes(const ReynoldsTable& table, c
 
 LoadEntryError model_variance(const RelativeErrors& errors, const LoadEntry& entry, const LoadScale& scale,
                               const FreeComponents& free) {
-    return variance_of(
-        {errors.force * scale.of_force(entry.force), errors.moment * scale.of_moment(entry.moment),
-         errors.turbulent_kinetic_energy * scale.of_root_of_k(std::sqrt(entry.turbulent_kinetic_energy)),
-         errors.dissipation_rate * scale.of_root_of_epsilon(std::sqrt(entry.dissipation_rate))},
-        free);
+    const ErrorMetrics size = scale.at(in_fit_units(entry));
+    return variance_of({errors.force * size.force, errors.moment * size.moment,
+                        errors.turbulent_kinetic_energy * size.turbulent_kinetic_energy,
+                        errors.dissipation_rate * size.dissipation_rate},
+                       free);
 }
 
 /// The model errors of the whole tables, where the cases show them.

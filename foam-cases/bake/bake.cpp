@@ -57,26 +57,14 @@ class Stopwatch {
 
 /// Writes the output; the body gets the mass for which it was baked.
 void write_result(const BakeRequest& request, Body& body) {
-    if (request.turbulence_only) {
+    if (request.baked) {
         const LoadTables turbulence = std::move(*body.tables);
-        body = read_body_file(request.shape);
+        body = *request.baked;
         body.tables = with_replaced_turbulence(std::move(*body.tables), turbulence);
     } else {
         body.mass = mass_asked_or_own(request.mass, body);
     }
     write_body_file(request.output, body);
-}
-
-/// Returns the Reynolds number of most cases of the body file's tables. Throws Error where it has none.
-double baked_reynolds_number(const fs::path& body_file) {
-    const Body body = read_body_file(body_file);
-    if (!body.tables) {
-        throw Error(
-            fmt::format("{}: has no tables whose k and epsilon could be replaced; bake it without "
-                        "--turbulence-only",
-                        body_file.string()));
-    }
-    return main_reynolds_number(*body.tables, case_records(*body.tables));
 }
 
 bool plans_falls(const BakeRequest& request) {
@@ -95,16 +83,19 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     preparation.body = body;
     if (!request.tables) return preparation;
     const std::vector<MassSpecification> masses = masses_of(request);
-    for (const MassSpecification& mass : masses) {
-        preparation.terminal_speed =
-            std::max(preparation.terminal_speed,
-                     bake_speed(body, request.fluid, mass_of(mass, body), request.gravity));
+    double reynolds_number = 0.0;
+    if (request.baked) {
+        const LoadTables& tables = *request.baked->tables;
+        reynolds_number = main_reynolds_number(tables, case_records(tables));
+    } else {
+        for (const MassSpecification& mass : masses) {
+            const double speed = bake_speed(body, request.fluid, mass_of(mass, body), request.gravity);
+            preparation.terminal_speed = std::max(preparation.terminal_speed, speed);
+        }
+        reynolds_number =
+            rounded_reynolds_number(preparation.terminal_speed * reference_length(body.moments.surface_area) /
+                                    request.fluid.kinematic_viscosity());
     }
-    const double reynolds_number = request.turbulence_only
-                                       ? baked_reynolds_number(request.shape)
-                                       : rounded_reynolds_number(preparation.terminal_speed *
-                                                                 reference_length(body.moments.surface_area) /
-                                                                 request.fluid.kinematic_viscosity());
     if (request.goal) {
         preparation.simulation =
             simulate_for_bake(request.goal->scene, request.goal->body, body, request.goal->falls);
@@ -267,7 +258,7 @@ fs::path case_folder_of(const fs::path& output) {
 
 fs::path case_folder_of(const BakeRequest& request) {
     fs::path folder = case_folder_of(request.output);
-    if (request.turbulence_only) folder.replace_extension(".turbulence.cases");
+    if (request.baked) folder.replace_extension(".turbulence.cases");
     return folder;
 }
 

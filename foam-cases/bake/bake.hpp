@@ -36,14 +36,14 @@ struct BakeRequest {
     std::optional<SceneGoal> goal = {};  ///< bakes what a scene needs, in rounds; else all directions
     int probes =
         0;  ///< above 0: the number of cases between the tables' nodes, written as CSV in place of tables
-    /// Solves k and epsilon alone, at the Reynolds numbers of the body file's own tables, and replaces them
-    /// there; all else of the body stays.
-    bool turbulence_only = false;
+    /// With tables: k and epsilon alone are solved, around the Reynolds number of these tables, and replaced
+    /// in them; all else of this body stays.
+    std::optional<Body> baked = {};
 };
 
 /// The plan of a bake, before anything is solved.
 struct BakePreparation {
-    double terminal_speed = 0.0;          ///< m/s, an estimate (bake_speed())
+    double terminal_speed = 0.0;          ///< m/s, an estimate (bake_speed()); 0 for k and epsilon alone
     std::optional<BakePlan> plan;         ///< with a goal the plan of the first round
     std::optional<ScenePlan> scene_plan;  ///< with a goal
     SampledFalls simulation;              ///< with a goal: falls before anything is baked

@@ -95,6 +95,11 @@ FlowMesh with_thin_layers(FlowMesh mesh, double first_layer) {
     return mesh;
 }
 
+std::vector<FlowMesh> copies_for_turbulence(std::vector<FlowMesh> meshes) {
+    for (FlowMesh& mesh : meshes) mesh.name += "_turbulence";
+    return meshes;
+}
+
 void require_closure_of(Closure closure, const char* what) {
     if (closure == Closure::k_epsilon || closure == Closure::k_omega_sst ||
         closure == Closure::k_omega_sst_lm)
@@ -119,10 +124,9 @@ BakeQuality with_loads_by(Closure closure, BakeQuality quality) {
     if (closure == Closure::k_epsilon) return quality;
     require_closure_of(closure, "loads");
     quality.loads_closure = quality.fall_closure = closure;
+    quality.turbulence_meshes = copies_for_turbulence(quality.meshes);
     const std::vector<FlowMesh> of_loads = {coarse_mesh(), medium_mesh(), wake_mesh(), fine_wake_mesh()};
     for (std::size_t i = 0; i < quality.meshes.size(); ++i) {
-        quality.turbulence_meshes.push_back(quality.meshes[i]);
-        quality.turbulence_meshes.back().name += "_turbulence";
         quality.meshes[i] = with_thin_layers(of_loads.at(i), thinnest_layer);
     }
     // Without transition, or with it; and without any closure.
@@ -142,10 +146,7 @@ BakeQuality with_turbulence_by(Closure closure, BakeQuality quality) {
     }
     quality.turbulence_closure = closure;
     if (quality.turbulence_meshes.empty() && closure != quality.loads_closure) {
-        for (const FlowMesh& mesh : quality.meshes) {
-            quality.turbulence_meshes.push_back(mesh);
-            quality.turbulence_meshes.back().name += "_turbulence";
-        }
+        quality.turbulence_meshes = copies_for_turbulence(quality.meshes);
     }
     for (Closures& other : quality.other_closures) {
         if (other.turbulence == closure) other.turbulence = Closure::k_epsilon;

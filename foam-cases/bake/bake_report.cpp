@@ -138,9 +138,11 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
         return;
     }
     const BakePlan& plan = *preparation.plan;
-    print_result("{}: {} cases at Reynolds number {:.0f} (terminal speed about {:.3g} m/s, L = {:.4g} m)\n",
-                 request.output.string(), plan.cases.size(), plan.main_reynolds_number,
-                 preparation.terminal_speed, plan.reference_length);
+    const std::string speed =
+        request.baked ? "that of the tables"
+                      : fmt::format("terminal speed about {:.3g} m/s", preparation.terminal_speed);
+    print_result("{}: {} cases at Reynolds number {:.0f} ({}, L = {:.4g} m)\n", request.output.string(),
+                 plan.cases.size(), plan.main_reynolds_number, speed, plan.reference_length);
     for (const BakeCase& entry : plan.cases) {
         print_result("  {}  direction of motion ({:7.4f} {:7.4f} {:7.4f})\n", entry.name, entry.direction.x(),
                      entry.direction.y(), entry.direction.z());

@@ -38,18 +38,14 @@ MODELS = {
     "wall": STEADY,  # production by the wall function in laminar layers too
     "realizableKE": {**STEADY, "closure": "realizableKE"},
     "kOmegaSST": {**STEADY, **OMEGA, "closure": "kOmegaSST"},
-    "kOmegaSSTLM": {**STEADY, **OMEGA, **RESOLVED, "closure": "kOmegaSSTLM"},
     "DDES": {**unsteady(f"{STEP}", STEPS), **RESOLVED, "simulationType": "LES", "closure": "kOmegaSSTDDES",
              "convection": "LUST grad(U)", "turbulenceConvection": "upwind", "turbulenceMeans": "no"},
 }
-UNIFORM = ("F10", "F14", "F20", "F28")
 MESHES = {
     **{f"F{cells}": {**mesh(cells, 4, "medium", 3), "refinementShells": "((1.0 4) (2.2 3) (3.5 2) (5 1))"}
        for cells in (10, 14, 20, 28)},
-    "near": {**mesh(20, 5, "fine", 4), "refinementShells": "((0.7 5) (1.6 4) (2.5 3) (3.5 2) (5 1))"},
-    "medium": mesh(20, 4, "medium", 3),
+    "medium": mesh(20, 4, "medium", 3),  # these two as tables had them before: fine at the surface, coarse behind
     "fine": mesh(20, 5, "fine", 4),
-    "layered": mesh(20, 4, "medium", 9, "1.4"),
     "wake": mesh(20, 4, "medium", 9, "1.4"),  # and a fine cylinder behind the body: a mesh for each direction
 }
 WAKE_LENGTH, AVERAGED_FROM = 2.5, 24

@@ -189,20 +189,15 @@ class JudgedBody {
             if (time < group.start(i)) continue;
             const double size = group.size_of(i);
             const Pose pose = in_own_units(group.pose_in_wind(i, time), size);
-            const TurbulenceLevel level = turbulence_level(*rated_, centroid_velocity(pose, *rated_));
+            const Vector3d velocity = centroid_velocity(pose, *rated_);
+            const TurbulenceLevel level = turbulence_level(*rated_, velocity);
             if (!(level.turbulent_kinetic_energy > 0.0)) continue;
             const double per_size = physics_.turbulence == Turbulence::table ? 1.0 / (size * size)
                                                                              : 1.0;  // else it is the world's
-            const double renewal = level.dissipation_rate / level.turbulent_kinetic_energy;
-            const WakeNoise& noise = rated_->constants.wake_noise;
-            const bool by_way =
-                rated_->constants.langevin == Langevin::wake && noise.rate_by_dissipation == 0.0;
             const double rate =
-                per_size * (by_way
-                                ? noise.rate_by_way * centroid_velocity(pose, *rated_).norm() / rated_->length
-                                : (rated_->constants.langevin == Langevin::wake ? noise.rate_by_dissipation
-                                                                                : turbulence_rate) *
-                                      renewal);
+                per_size * (rated_->constants.langevin == Langevin::wake
+                                ? wake_renewal_rate(*rated_, velocity)
+                                : turbulence_rate * level.dissipation_rate / level.turbulent_kinetic_energy);
             squared_rates_ += rate * rate;
             ++samples_;
         }

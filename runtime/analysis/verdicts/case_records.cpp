@@ -29,9 +29,10 @@ Json object_of(const Json& object, const char* key) {
     return found != object.end() && found->is_object() ? *found : Json::object();
 }
 
-/// Returns the mean of k of a case that has its own: of earlier cases over a shell.
+/// Returns the mean of k of a case that has its own.
 std::optional<double> k_of(const Json& one) {
-    return number_of(object_of(one, one.contains("near_wake") ? "near_wake" : "shell"), "k");
+    const Json* const means = turbulence_means(one);
+    return means == nullptr ? std::nullopt : number_of(*means, "k");
 }
 
 std::optional<Vector3d> direction_of(const Json& object) {
@@ -74,6 +75,14 @@ std::optional<CaseRecord> record_of(const Json& one, const Matrix3d& axes) {
 }
 
 }  // namespace
+
+const Json* turbulence_means(const Json& provenance) {
+    for (const char* key : {"near_wake", "shell"}) {
+        const auto found = provenance.find(key);
+        if (found != provenance.end() && found->is_object()) return &*found;
+    }
+    return nullptr;
+}
 
 std::vector<CaseRecord> case_records(const LoadTables& tables) {
     const Json cases = parse_json_or_discard(tables.provenance);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/body/load_tables.hpp"
 
@@ -30,6 +32,10 @@ struct CaseRecord {
 /// The distance between unit vectors below which two cases are of one direction: those of one plan differ by
 /// the rounding of a rotation of axes alone.
 inline constexpr double same_direction = 1e-6;
+
+/// Returns the means of k and epsilon of a case's provenance.json, by its keys `k` and `epsilon`: over the
+/// near wake, or over the shell of earlier cases; nothing where it has neither.
+const nlohmann::json* turbulence_means(const nlohmann::json& provenance);
 
 /// Returns whether the case is on the last mesh or the one before it (purposes "table" and "mesh").
 bool is_on_last_meshes(const CaseRecord& record);

@@ -31,7 +31,11 @@ Matrix3d read_tensor(const Hdf5Reader& file, const char* name, const char* name_
 DynamicCoefficients read_numbers(const Hdf5Reader& file, const char* name_end) {
     DynamicCoefficients numbers;
     for (const NumberOfMotion& number : numbers_of_motion) {
-        const std::string name = fmt::format("{}{}", number.name, name_end);
+        std::string name = fmt::format("{}{}", number.name, name_end);
+        if (const std::string older = fmt::format("{}{}", number.older_name, name_end);
+            *number.older_name != '\0' && file.has_attribute(coefficients_group, older)) {
+            name = older;
+        }
         if (number.is_late && !file.has_attribute(coefficients_group, name)) {
             if (*name_end != '\0') numbers.*number.member = 0.0;
         } else {

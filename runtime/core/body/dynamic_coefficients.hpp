@@ -87,12 +87,14 @@ struct NumberOfMotion {
     const char* title;                    ///< in reports
     bool is_positive;                     ///< whether it must not be negative
     bool is_late;                         ///< whether older files lack it
+    const char* older_name = "";          ///< its name in older files, where that was another
 };
 inline constexpr NumberOfMotion numbers_of_motion[] = {
     {&DynamicCoefficients::rotational_transport, "rotational_transport", "rotational transport", false,
      false},
     {&DynamicCoefficients::unsteady_factor, "unsteady_factor", "unsteady factor", true, true},
-    {&DynamicCoefficients::settling_length, "settling_ways", "settling length", true, true},
+    {&DynamicCoefficients::settling_length, "settling_length", "settling length", true, true,
+     "settling_ways"},
 };
 
 /// The range of the densities of the falls that coefficients are identified from, relative to the fluid's;

@@ -41,4 +41,13 @@ TurbulenceLevel turbulence_level(const ImmersedBody& body, const Vector3d& veloc
     return kernel::turbulence_level(body.constants, velocity);
 }
 
+double wake_renewal_rate(const ImmersedBody& body, const Vector3d& velocity) noexcept {
+    const TurbulenceLevel level = turbulence_level(body, velocity);
+    if (!(level.turbulent_kinetic_energy > 0.0)) return 0.0;
+    const WakeNoise& noise = body.constants.wake_noise;
+    return noise.rate_by_dissipation > 0.0
+               ? noise.rate_by_dissipation * level.dissipation_rate / level.turbulent_kinetic_energy
+               : noise.rate_by_way * velocity.norm() / body.length;
+}
+
 }  // namespace samara

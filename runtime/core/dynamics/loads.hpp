@@ -37,4 +37,8 @@ double reynolds_number(const ImmersedBody& body, double speed) noexcept;
 /// body axes).
 TurbulenceLevel turbulence_level(const ImmersedBody& body, const Vector3d& velocity) noexcept;
 
+/// Returns the rate (1/s) at which the wake's velocity fluctuation renews itself at such a velocity; 0 where
+/// there is no turbulence.
+double wake_renewal_rate(const ImmersedBody& body, const Vector3d& velocity) noexcept;
+
 }  // namespace samara

@@ -40,8 +40,8 @@ struct LoadPatch {
 /// a force across the path of rho |w|/2 times the velocity fluctuation, times the body's projected area in
 /// the force's direction, times side_pressure. Measured on bodies that are held (docs/studies/noise).
 struct WakeNoise {
-    double share = 0.0;  ///< rms of each component over the root of 2k/3
-    double side_pressure = 0.0;
+    double share = 0.0;                ///< rms of each component over the root of 2k/3
+    double side_pressure = 0.0;        ///< of the force on the sides, over rho |w|/2 times the fluctuation
     double rate_by_dissipation = 0.0;  ///< of its renewal, over epsilon/k; 0: the next
     double rate_by_way = 0.0;          ///< likewise, over |w|/L
 };

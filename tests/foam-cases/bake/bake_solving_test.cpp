@@ -97,6 +97,43 @@ TEST_F(Bake, TakesLoadsFromOneModelAndTurbulenceFromAnotherWhereToldTo) {
     EXPECT_GT(look_up(*body.tables, Vector3d::UnitX(), 1e4).turbulent_kinetic_energy, 0.0);
 }
 
+TEST_F(Bake, OfKAndEpsilonAloneKeepsAllElseOfABakedBody) {
+    const fs::path file = write_body(test::sphere(0.01));
+    ASSERT_EQ(bake(fmt::format("{} -o first.body.h5 --quality smoke", file.string())).status, 0);
+    const test::ProgramRun run =
+        bake("first.body.h5 -o out.body.h5 --turbulence-only --closure realizableKE --json");
+    ASSERT_EQ(run.status, 0) << run.error;
+    const Body first = read_body_file(folder_ / "first.body.h5");
+    const Body second = read_body_file(output_);
+    EXPECT_EQ(second.tables->quality, "smoke");
+    EXPECT_EQ(second.kirchhoff->matrix, first.kirchhoff->matrix);
+    EXPECT_EQ(run.json()["reynolds_numbers"][0], first.tables->reynolds_numbers[0]);
+    const double reynolds_number = first.tables->reynolds_numbers[0];
+    const LoadEntry before = look_up(*first.tables, Vector3d::UnitX(), reynolds_number);
+    const LoadEntry after = look_up(*second.tables, Vector3d::UnitX(), reynolds_number);
+    EXPECT_EQ(after.force, before.force);
+    EXPECT_GT(after.turbulent_kinetic_energy, 0.0);
+    EXPECT_NE(after.turbulent_kinetic_energy, before.turbulent_kinetic_energy);
+    const nlohmann::json solved = run.json()["cases"][0];
+    EXPECT_NEAR(after.turbulent_kinetic_energy, solved["turbulent_kinetic_energy"].get<double>(), 1e-9);
+    const fs::path record = folder_ / "out.turbulence.cases/direction_00_coarse/provenance.json";
+    EXPECT_EQ(nlohmann::json::parse(read_bytes(record))["closure"], "realizableKE");
+    // Under its own name, and again: the cases are reused, and the body is the same.
+    const std::string data = data_of(output_);
+    const test::ProgramRun again =
+        bake("out.body.h5 -o out.body.h5 --turbulence-only --closure realizableKE --json");
+    ASSERT_EQ(again.status, 0) << again.error;
+    EXPECT_EQ(again.json()["reused_cases"], 1);
+    EXPECT_EQ(data_of(output_), data);
+}
+
+TEST_F(Bake, OfKAndEpsilonAloneNeedsTables) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --turbulence-only", file.string()));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.error, HasSubstr("has no tables whose k and epsilon could be replaced"));
+}
+
 TEST_F(Bake, EstimatesTheCellsOfTheMeshThatIsMade) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun estimate =

@@ -413,7 +413,7 @@ TEST(BodyFile, DynamicCoefficientsFromBeforeThereWereTheirLaterNumbersHaveThoseO
         H5::H5File file((folder / "a.body.h5").string(), H5F_ACC_RDWR);
         H5::Group group = file.openGroup("/dynamic_coefficients");
         for (const char* name :
-             {"unsteady_factor", "unsteady_factor_error", "settling_ways", "settling_ways_error"}) {
+             {"unsteady_factor", "unsteady_factor_error", "settling_length", "settling_length_error"}) {
             group.removeAttr(name);
         }
     }
@@ -421,6 +421,23 @@ TEST(BodyFile, DynamicCoefficientsFromBeforeThereWereTheirLaterNumbersHaveThoseO
     body.dynamic->standard_errors.unsteady_factor = 0.0;
     body.dynamic->values.settling_length = usual_settling_length;
     body.dynamic->standard_errors.settling_length = 0.0;
+    expect_equal(read_body_file(folder / "a.body.h5"), body);
+}
+
+TEST(BodyFile, TheSettlingLengthIsReadByTheNameThatItHadBefore) {
+    const test::TemporaryFolder folder;
+    Body body = test::full_body();
+    body.dynamic->values.settling_length = 3.5;
+    write_body_file(folder / "a.body.h5", body);
+    {
+        H5::H5File file((folder / "a.body.h5").string(), H5F_ACC_RDWR);
+        H5::Group group = file.openGroup("/dynamic_coefficients");
+        for (const char* end : {"", "_error"}) {
+            ASSERT_GE(H5Arename(group.getId(), (std::string("settling_length") + end).c_str(),
+                                (std::string("settling_ways") + end).c_str()),
+                      0);
+        }
+    }
     expect_equal(read_body_file(folder / "a.body.h5"), body);
 }
 

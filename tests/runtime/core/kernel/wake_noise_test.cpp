@@ -61,15 +61,6 @@ WakeStatistics statistics_of(const ImmersedBody& body, const BodyState& moving, 
     return found;
 }
 
-/// The time scale of the fluctuation (s).
-double renewal_time(const ImmersedBody& body, const Vector3d& velocity) {
-    const TurbulenceLevel level = turbulence_level(body, velocity);
-    const WakeNoise& noise = body.constants.wake_noise;
-    return noise.rate_by_dissipation > 0.0
-               ? level.turbulent_kinetic_energy / (noise.rate_by_dissipation * level.dissipation_rate)
-               : body.length / (noise.rate_by_way * velocity.norm());
-}
-
 TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStepAndTheMeanOfK) {
     for (const auto& [mean, speed] : {std::pair{TurbulenceMean::near_wake, 0.22},
                                       {TurbulenceMean::near_wake, 0.44},
@@ -77,7 +68,7 @@ TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStepAndTheMeanOfK) {
         const ImmersedBody body = ellipsoid_with_a_wake(1e9, mean);
         const Vector3d velocity = speed * Vector3d(2.0, 0.0, 1.0).normalized();
         const double energy = turbulence_level(body, velocity).turbulent_kinetic_energy;
-        const double time = renewal_time(body, velocity);
+        const double time = 1.0 / wake_renewal_rate(body, velocity);
         const double share = body.constants.wake_noise.share;
         const Matrix3d expected = share * share * 2.0 / 3.0 * energy * Matrix3d::Identity();
         for (const double step_by_time : {0.2, 2.0}) {
@@ -91,7 +82,7 @@ TEST(WakeNoise, HasItsVarianceAndItsTimeWhateverTheStepAndTheMeanOfK) {
 TEST(WakeNoise, IsTheWeakerTheMoreTheBodyTurnsOnItsWay) {
     const ImmersedBody body = ellipsoid_with_a_wake(1e9);
     const Vector3d velocity(0.4, 0.0, 0.2);
-    const double time = renewal_time(body, velocity);
+    const double time = 1.0 / wake_renewal_rate(body, velocity);
     const double straight = statistics_of(body, moving_at(velocity), time).wake_fluctuation.trace();
     const double rate = velocity.norm() / body.length;  // lengths gone in a second
     for (const double turns : {0.1, 0.25, 1.0}) {
