@@ -23,7 +23,7 @@ import sys
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
 from closures_study import Body, cross, minus  # noqa: E402
-from noise_report import BODIES, CASES, COMPONENTS, FITTED, judged, read_rows  # noqa: E402
+from noise_report import BODIES, CASES, COMPONENTS, FITTED, file_of, judged, read_rows  # noqa: E402
 
 SMALL = 0.03        # of the speed: the slopes' differences
 USUAL = 0.08        # sqrt(2k/3) over |w|: forms by |w| and by k have like numbers so
@@ -61,7 +61,7 @@ class Case:
         self.rms = [(COMPONENTS.index(row.component), row.cfd_rms) for row in rows if row.case == name]
 
     def table(self, programs, velocity, reynolds):
-        words = [f"{programs}/samara", "info", f"runtime/bodies/{self.shape}.body.h5", "--json", "--reynolds-number", str(reynolds),
+        words = [f"{programs}/samara", "info", file_of(self.shape), "--json", "--reynolds-number", str(reynolds),
                  "--direction", ",".join(f"{x:.9g}" for x in velocity)]
         entry = json.loads(subprocess.run(words, check=True, capture_output=True).stdout)
         return [dot(velocity, velocity) * x for x in entry["force"] + entry["moment"]], entry["turbulent_kinetic_energy"]

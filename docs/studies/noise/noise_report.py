@@ -22,6 +22,7 @@ import glob
 import json
 import math
 import os
+import statistics
 import subprocess
 import sys
 
@@ -39,13 +40,15 @@ def axis_along_z(triangles):
     return [[(y, z, x) for x, y, z in triangle] for triangle in triangles]
 
 
-# As meshes/shapes has them, with axes, fluid and Reynolds number (over L) of the ready-baked bodies.
+# As meshes/shapes and the studies of falls have them, with axes, fluid and a Reynolds number (over L) of their tables.
 BODIES = {
     "sphere": (sphere(), 15900, "water"),
     "disc": (axis_along_z(disc(40, 2)), 7640, "water"),
     "ellipsoid": (sphere(1, 2, 4), 10300, "water"),
     "sheet": (box(83, 83, 0.1), 4990, "air"),
     "cube": (box(20, 20, 20), 6070, "water"),
+    "box": (box(12, 24, 36), 11200, "water"),
+    "spheroid": (sphere(4, 4, 1), 5960, "water"),
 }
 HALF = math.sqrt(0.5)
 EDGE = (math.cos(math.radians(20)), 0.0, math.sin(math.radians(20)))
@@ -64,9 +67,14 @@ CASES = {
     "cube-45": ("cube", (HALF, HALF, 0)),
     "disc-20": ("disc", (EDGE[2], 0, EDGE[0])),
     "ellipsoid-middle": ("ellipsoid", (0, 1, 0)),
+    "box-0": ("box", (1, 0, 0)),
+    "box-45": ("box", (HALF, 0, HALF)),
+    "spheroid-0": ("spheroid", (0, 0, 1)),
+    "spheroid-45": ("spheroid", (HALF, 0, HALF)),
 }
 # The cases by which the fluctuating wake (runtime/core/kernel/step_constants.hpp) was fitted; the others were held out.
-FITTED = tuple(name for name in CASES if name not in ("cube-0", "cube-45", "disc-20", "ellipsoid-middle"))
+FITTED = tuple(name for name in CASES if CASES[name][0] in ("sphere", "disc", "ellipsoid", "sheet")
+               and name not in ("disc-20", "ellipsoid-middle"))
 # Solved with the wake's cells twice as wide, too.
 COARSER = ("sphere", "disc-45", "ellipsoid-45")
 STEP, STEPS, WAKE_LENGTH, WAKE_MARGIN = 0.03, 2400, 2.5, 0.3
@@ -82,6 +90,12 @@ ROWS, SPECTRA_ROWS, PAGE, PICTURE = ("docs/studies/noise/fluctuations.csv", "doc
 SEGMENT = 600
 SPECTRA = (("sphere", "force_y"), ("disc-0", "force_z"), ("ellipsoid-45", "force_x"), ("sheet-45", "moment_y"))
 VISCOSITY, DENSITY = {"water": 1.004e-6, "air": 1.516e-5}, {"water": 998.2, "air": 1.204}
+
+
+def file_of(shape):
+    """Of the baked body: ready, or of the study of falls."""
+    ready = f"runtime/bodies/{shape}.body.h5"
+    return ready if os.path.exists(ready) else f"docs/studies/falls/bodies/{shape}.body.h5"
 
 
 def vector(a):
@@ -142,7 +156,7 @@ def loads_by_runtime(programs, work, name, kind):
     """Likewise of RUNS runs, one after the other."""
     shape, direction = CASES[name]
     _, reynolds, fluid = BODIES[shape]
-    body = os.path.join("runtime", "bodies", f"{shape}.body.h5")
+    body = file_of(shape)
     info = json.loads(subprocess.run([f"{programs}/samara", "info", body, "--json"], check=True, capture_output=True,
                                      text=True).stdout)
     length = info["tables"]["reference_length"]
@@ -161,7 +175,7 @@ density = {DENSITY[fluid]}
 viscosity = {DENSITY[fluid] * VISCOSITY[fluid]!r}
 [[body]]
 name = "{name}"
-shape = "samara:{shape}"
+shape = "{os.path.abspath(body)}"
 mass = {mass!r}
 inertia = {[mass * length ** 2] * 3}
 velocity = {[speed * x for x in direction]}
@@ -372,7 +386,8 @@ def factor(ratios):
 
 
 def table_of_sums(rows):
-    lines = ["| loads of | model | rms off by a factor of | within 30 % | lasting off by | within a factor of 1.5 |", "|---" * 6 + "|"]
+    lines = ["| loads of | model | rms over CFD's, median | off by a factor of | within 30 % | lasting over CFD's, median | off by | within a factor of 1.5 |",
+             "|---" * 8 + "|"]
     groups = {"the choice": FITTED, "the test": [case for case in CASES if case not in FITTED]}
     groups |= {f"of it the {body}": [case for case in groups["the test"] if CASES[case][0] == body] for body in ("cube", "disc", "ellipsoid")}
     for group, cases in groups.items():
@@ -382,13 +397,13 @@ def table_of_sums(rows):
         for kind, title in (("seen-fluid", "the stream"), ("wake", "the wake")):
             rms = [row.numbers[kind + "_rms"] / row.cfd_rms for row in some]
             lasting = [row.numbers[kind + "_time"] / row.cfd_time for row in some]
-            lines.append(f"| {group} | {title} | {factor(rms):.2g} | "
-                         f"{sum(abs(x - 1) <= 0.3 for x in rms)} of {len(some)} | {factor(lasting):.2g} | "
+            lines.append(f"| {group} | {title} | {statistics.median(rms):.2g} | {factor(rms):.2g} | "
+                         f"{sum(abs(x - 1) <= 0.3 for x in rms)} of {len(some)} | {statistics.median(lasting):.2g} | {factor(lasting):.2g} | "
                          f"{sum(1 / 1.5 <= x <= 1.5 for x in lasting)} of {len(some)} |")
     some = [row for row in judged(rows) if row.case in COARSER]
     rms, lasting = ([getattr(row, f"coarser_{what}") / getattr(row, f"cfd_{what}") for row in some] for what in ("rms", "time"))
-    lines.append(f"| {', '.join(COARSER)} | full CFD, cells twice as wide | {factor(rms):.2g} | "
-                 f"{sum(abs(x - 1) <= 0.3 for x in rms)} of {len(some)} | {factor(lasting):.2g} | "
+    lines.append(f"| {', '.join(COARSER)} | full CFD, cells twice as wide | {statistics.median(rms):.2g} | {factor(rms):.2g} | "
+                 f"{sum(abs(x - 1) <= 0.3 for x in rms)} of {len(some)} | {statistics.median(lasting):.2g} | {factor(lasting):.2g} | "
                  f"{sum(1 / 1.5 <= x <= 1.5 for x in lasting)} of {len(some)} |")
     return "\n".join(lines) + "\n"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The paper's figures 1 and 3 with the project's scenes: pictures and the tables of README.md.
+"""The paper's figures 1 and 3 with the project's scenes, and its process beside full CFD: pictures and the tables of README.md.
 
     paper_scenes.py BIN BODIES FOLDER
 
@@ -10,12 +10,14 @@ FOLDER: gets the pictures. Run from the project's folder.
 import glob
 import math
 import os
+import statistics
 import sys
 import tempfile
 
 sys.path += glob.glob(f"{os.path.dirname(os.path.abspath(__file__))}/../*/")  # the modules of all studies
-from falls_report import run  # noqa: E402
+from falls_report import compared, run  # noqa: E402
 from report_tables import mark, write_tables  # noqa: E402
+from test_falls_report import FOLDER as FALLS  # noqa: E402
 from study_pictures import GRAY, ellipsoid_outline, flights, key, new_figure, save, turned  # noqa: E402
 
 SCENES = "docs/scenes"
@@ -264,13 +266,43 @@ def airplane(programs, bodies, work, folder):
     return "\n".join(lines) + "\n" + body
 
 
+# The paper's process beside full CFD.
+
+BODIES = ("cube", "sheet", "ellipsoid")  # ready-baked, with test falls of their shape
+FORMS = {
+    "no noise": ("off", {}),
+    "the wake (default)": ("on", {}),
+    "the stream, `seen-fluid`": ("on", {"langevin": "seen-fluid"}),
+    "equation 8, `body-velocity`": ("on", {"langevin": "body-velocity"}),
+    "equation 8, with its drag coefficient": ("on", {"langevin": "body-velocity", "loads": "coefficients"}),
+}
+
+
+def forms(programs, work):
+    """A line for each form: how far its test falls are from full CFD, in the mean."""
+    lines = ["| form | falls | descent off by, mean | descent, median | rms angular speed off by a factor of | regimes right |", "|---|---|---|---|---|---|"]
+    scenes = [(scene, body) for body in BODIES for scene in sorted(os.listdir(FALLS))
+              if scene.startswith(f"{body}-") and scene.endswith(".toml")]
+    for form, (noise, keys) in FORMS.items():
+        descents, spins, right = [], [], 0
+        for scene, body in scenes:
+            name = scene.removesuffix(".toml")
+            told = compared(programs, f"runtime/bodies/{body}.body.h5", name, work, noise, FALLS, keys)
+            descents.append(told["measures"]["descent_speed"]["relative_difference"])
+            spins.append(abs(math.log(1 + told["measures"]["rms_angular_speed"]["relative_difference"])))
+            right += told["motion"]["regime"] == told["reference"]["regime"]
+        lines.append(f"| {form} | {len(scenes)} | {100 * statistics.mean(map(abs, descents)):.0f} % | {100 * statistics.median(descents):+.0f} % | "
+                     f"{math.exp(statistics.mean(spins)):.2f} | {right} |")
+    return "\n".join(lines) + "\n"
+
+
 def main(words):
     if len(words) != 4:
         sys.stderr.write(__doc__)
         return 2
     programs, bodies, folder = words[1:4]
     with tempfile.TemporaryDirectory() as work:
-        tables = [rubber(programs, bodies, work, folder), airplane(programs, bodies, work, folder)]
+        tables = [rubber(programs, bodies, work, folder), airplane(programs, bodies, work, folder), forms(programs, work)]
     write_tables(f"{folder}/README.md", tables, mark("scenes"))
     print(f"Written: README.md, rubber-three-ways.png and paper-airplane.png in {folder}")
     return 0
