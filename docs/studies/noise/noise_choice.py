@@ -1,19 +1,15 @@
 #!/usr/bin/env python3
 """How the form of the wake's noise was chosen (README.md): what forms make of the tables' slopes, beside full CFD.
 
-    noise_choice.py BIN [near-wake]
-                           fits the forms' numbers to the cases of noise_report.py that the choice is by, and prints by what
+    noise_choice.py BIN    fits the forms' numbers to the cases of noise_report.py that the choice is by, and prints by what
                            factor each is off in the mean, there and on the other cases; then the chosen form, refitted
                            without each body, on that body, and with a body's own numbers; and how long the loads last.
-                           BIN: the folder of the programs. near-wake: with k and epsilon of
-                           docs/studies/turbulence/turbulence.csv in place of the ready-baked tables'. Run from the
-                           project's folder.
+                           BIN: the folder of the programs. Run from the project's folder.
 
 A load's rms is that of table(w - u) for small slips u, to the first order; flights average over 0.24 L/U besides. Factors are
 means of |log|; a load that is off by more than e^2 counts as that in the fit, and by no more than e^5 in the mean.
 """
 
-import csv
 import glob
 import json
 import math
@@ -40,15 +36,13 @@ def dot(a, b):
 class Case:
     """A direction of a body: the slopes of its loads by the velocity along the path and along two axes across it."""
 
-    def __init__(self, programs, name, rows, near_wake):
+    def __init__(self, programs, name, rows):
         self.shape, direction = CASES[name]
         triangles, reynolds, _ = BODIES[self.shape]
         axis = (0.0, 1.0, 0.0) if abs(direction[1]) < 0.9 else (1.0, 0.0, 0.0)
         self.axes = (direction, axis, cross(direction, axis))
-        loads, energy = self.table(programs, direction, reynolds)
-        self.chi = None
-        if near_wake:
-            energy, self.chi = near_wake[name]
+        loads, energy, dissipation = self.table(programs, direction, reynolds)
+        self.chi = dissipation / energy
         self.fluctuation = math.sqrt(2 * energy / 3)
         self.slopes = []
         for axis in self.axes:
@@ -64,7 +58,7 @@ class Case:
         words = [f"{programs}/samara", "info", file_of(self.shape), "--json", "--reynolds-number", str(reynolds),
                  "--direction", ",".join(f"{x:.9g}" for x in velocity)]
         entry = json.loads(subprocess.run(words, check=True, capture_output=True).stdout)
-        return [dot(velocity, velocity) * x for x in entry["force"] + entry["moment"]], entry["turbulent_kinetic_energy"]
+        return [dot(velocity, velocity) * x for x in entry["force"] + entry["moment"]], entry["turbulent_kinetic_energy"], entry["dissipation_rate"]
 
     @staticmethod
     def shadow(triangles, axis):
@@ -137,13 +131,6 @@ def own_numbers(form, cases):
         print(f"numbers from {which}: off by a factor of {math.exp(sum(map(abs, some)) / len(some)):.2f}")
 
 
-def near_wakes():
-    """k and chi = epsilon/k by case, in units of U and L, on the mesh that a standard bake ends with."""
-    with open("docs/studies/turbulence/turbulence.csv", newline="", encoding="utf-8") as file:
-        return {row["case"]: (float(row["k"]), float(row["epsilon"]) / float(row["k"])) for row in csv.DictReader(file)
-                if (row["mesh"], row["model"]) == ("F20", "kEpsilon")}
-
-
 def print_times(rows, cases):
     """The times of the loads over L/U and over k/epsilon: geometric means, and by what factor they scatter."""
     for title, unit in (("L/U", lambda case: 1.0), ("k/epsilon", lambda case: 1 / case.chi)):
@@ -154,9 +141,9 @@ def print_times(rows, cases):
                   f"scattering by {math.exp(math.sqrt(sum((x - middle) ** 2 for x in some) / len(some))):.2f}")
 
 
-def main(programs, near_wake):
+def main(programs):
     rows = judged(read_rows())
-    cases = {name: Case(programs, name, rows, near_wake) for name in CASES if any(row.case == name for row in rows)}
+    cases = {name: Case(programs, name, rows) for name in CASES if any(row.case == name for row in rows)}
     choice = [case for name, case in cases.items() if name in FITTED]
     test = [case for name, case in cases.items() if name not in FITTED]
     print("slip across by, sides by: slip along, across, sides; off by a factor of, choice, test")
@@ -179,11 +166,10 @@ def main(programs, near_wake):
         print(f"without the {body}:", *(f"{x:.3g}" for x in numbers[1:]), f"{math.exp(sum(map(abs, off)) / len(off)):.2f} on it")
     print(f"all left out: {math.exp(whole / count):.2f}")
     own_numbers(chosen, list(cases.values()))
-    if near_wake:
-        print_times(rows, cases)
+    print_times(rows, cases)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["near-wake"]):
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
-    main(sys.argv[1], near_wakes() if sys.argv[2:] else None)
+    main(sys.argv[1])
