@@ -117,22 +117,6 @@ FlowMesh fitted_mesh(FlowMesh mesh, const Body& body, double length) {
     return mesh;
 }
 
-// Chooses the most subdivisions whose directions the quality allows, and a stored map that includes their
-// nodes.
-void choose_subdivisions(const Symmetry& symmetry, BakePlan& plan) {
-    const BakeQuality& quality = plan.quality;
-    plan.solved_subdivisions = quality.least_subdivisions;
-    // In multiples, so that the directions of the coarsest map are among them.
-    for (int finer = 2 * quality.least_subdivisions; finer <= quality.most_subdivisions;
-         finer += quality.least_subdivisions) {
-        const std::size_t directions = required_directions(symmetry, finer).size();
-        if (directions > static_cast<std::size_t>(quality.most_directions)) break;
-        plan.solved_subdivisions = finer;
-    }
-    const int solved = plan.solved_subdivisions;
-    plan.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
-}
-
 std::string case_name(const char* group, std::size_t index, const FlowMesh& mesh) {
     return fmt::format("{}_{:02}_{}", group, index, mesh.name.substr(mesh.name.find('_') + 1));
 }
@@ -185,57 +169,33 @@ BakeCase case_of_few(const Vector3d& direction, const BakePlan& plan) {
     return *found;
 }
 
-// Returns the main cases in the directions of the coarsest map on the mesh before the last.
-std::vector<BakeCase> few_of(const Symmetry& symmetry, const BakePlan& plan) {
-    const std::string& mesh = mesh_of_few(plan);
-    std::vector<BakeCase> few;
-    for (const Vector3d& direction : required_directions(symmetry, plan.quality.least_subdivisions)) {
-        const auto found = std::ranges::find_if(plan.cases, [&](const BakeCase& entry) {
-            return entry.mesh == mesh && (entry.direction - direction).norm() < direction_tolerance(symmetry);
-        });
-        if (found != plan.cases.end()) few.push_back(*found);
-    }
-    return few;
-}
-
-// Chooses the directions that are solved on the last mesh too: the ends of the map's axes, where loads and
-// turbulence have their extremes, then those between which the change by the mesh is interpolated best.
-std::vector<std::size_t> chosen_for_last_mesh(const Symmetry& symmetry,
-                                              const std::vector<Vector3d>& directions,
-                                              const BakeQuality& quality) {
-    const double share = quality.meshes.size() < 2 ? 1.0 : quality.share_on_last_mesh;
-    const auto count = static_cast<std::size_t>(std::ceil(share * static_cast<double>(directions.size())));
-    std::vector<std::size_t> chosen;
-    for (const Vector3d& end : required_directions(symmetry, 1)) {
-        const auto found = std::ranges::find_if(directions, [&](const Vector3d& direction) {
-            return (direction - end).norm() < direction_tolerance(symmetry);
-        });
-        if (found == directions.end()) continue;
-        chosen.push_back(static_cast<std::size_t>(found - directions.begin()));
-    }
-    const std::size_t more = count - std::min(count, chosen.size());
-    const auto between =
-        choose_directions(symmetry, directions, chosen, direction_weights({}, symmetry), more);
-    chosen.insert(chosen.end(), between.begin(), between.end());
-    return chosen;
-}
-
+// Adds the cases of the main Reynolds number in as many directions as the quality asks for, and those on the
+// last mesh, at further Reynolds numbers and by other closures in the first of them.
 void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
     const BakeQuality& quality = plan.quality;
+    const Candidates candidates = candidate_directions(symmetry);
+    plan.subdivisions = stored_subdivisions(candidates, quality);
     plan.main_reynolds_number = main_reynolds_number;
-    const std::vector<Vector3d> directions = required_directions(symmetry, plan.solved_subdivisions);
-    const std::vector<std::size_t> on_last = chosen_for_last_mesh(symmetry, directions, quality);
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        const bool whole = std::ranges::find(on_last, i) != on_last.end();
-        add_ladder("direction", i, directions[i], main_reynolds_number, plan,
-                   whole ? Ladder::to_last_mesh : Ladder::to_mesh_before);
+    std::vector<std::size_t> chosen = ends_of_axes(symmetry, candidates.directions);
+    const auto count = static_cast<std::size_t>(quality.directions);
+    const auto more =
+        choose_directions(symmetry, candidates.directions, chosen, direction_weights({}, symmetry),
+                          count - std::min(count, chosen.size()));
+    chosen.insert(chosen.end(), more.begin(), more.end());
+    const auto few =
+        static_cast<std::size_t>(std::ceil(quality.share_of_few * static_cast<double>(chosen.size())));
+    const bool one_mesh = quality.meshes.size() < 2;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        add_ladder("direction", i, candidates.directions[chosen[i]], main_reynolds_number, plan,
+                   one_mesh || i < few ? Ladder::to_last_mesh : Ladder::to_mesh_before);
     }
-    const std::vector<BakeCase> few = few_of(symmetry, plan);
     for (const double factor : quality.further_reynolds_numbers) {
         const double reynolds_number = rounded_reynolds_number(factor * main_reynolds_number);
-        for (const BakeCase& main : few) add_further_reynolds_number(main.direction, reynolds_number, plan);
+        for (std::size_t i = 0; i < few; ++i) {
+            add_further_reynolds_number(candidates.directions[chosen[i]], reynolds_number, plan);
+        }
     }
-    for (const BakeCase& main : few) add_other_closures(main.direction, plan);
+    for (std::size_t i = 0; i < few; ++i) add_other_closures(candidates.directions[chosen[i]], plan);
 }
 
 std::size_t index_of_mesh(const BakePlan& plan, const std::string& name) {
@@ -281,6 +241,11 @@ void add_ladder(const char* group, std::size_t index, const Vector3d& direction,
         plan.cases.push_back(entry);
         turbulence_before = add_turbulence(turbulence_before, plan.quality.turbulence_closure, plan);
     }
+}
+
+int stored_subdivisions(const Candidates& candidates, const BakeQuality& quality) {
+    const int solved = candidates.subdivisions;
+    return solved * ((quality.table_subdivisions + solved - 1) / solved);
 }
 
 double mass_of(const MassSpecification& asked, const Body& body) {
@@ -412,7 +377,6 @@ BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds
                    const Inflow& inflow) {
     BakePlan plan = plan_of_meshes(body, quality);
     plan.inflow = inflow;
-    choose_subdivisions(body.symmetry, plan);
     plan_cases(body.symmetry, reynolds_number, plan);
     estimate_cost(plan);
     return plan;

@@ -9,6 +9,7 @@
 #include "converter/cases/case_plan.hpp"
 #include "converter/falls/free_fall.hpp"
 #include "foam-cases/bake/bake_quality.hpp"
+#include "foam-cases/bake/direction_choice.hpp"
 #include "samara/core/body/body.hpp"
 #include "samara/core/physics/fluid.hpp"
 #include "samara/scene/scene.hpp"
@@ -43,7 +44,6 @@ struct BakePlan {
     CaseType type = CaseType::bake;
     BakeQuality quality;            ///< with meshes fitted to the body
     int subdivisions = 1;           ///< of the stored map
-    int solved_subdivisions = 1;    ///< of the map with the solved directions; divides `subdivisions`
     double reference_length = 0.0;  ///< L (m)
     Matrix3d axes = Matrix3d::Identity();
     bool covers_scene = false;  ///< only directions that occur in a scene are solved, not all
@@ -66,9 +66,9 @@ struct BakePlan {
 /// Returns the closure at a Reynolds number: `turbulent`, or laminar below laminar_reynolds_number.
 Closure closure_at(double reynolds_number, Closure turbulent = Closure::k_epsilon);
 
-/// Plans the cases of a quality around the main Reynolds number: the directions that are different under the
-/// body's symmetry, a share of them on the last mesh too, and those of a coarser map for further Reynolds
-/// numbers and closures.
+/// Plans the cases of a quality around the main Reynolds number: the ends of the axes and the directions
+/// between which tables are interpolated best (choose_directions), the first of them on the last mesh too, at
+/// further Reynolds numbers and by other closures.
 BakePlan plan_bake(const Body& body, const BakeQuality& quality, double reynolds_number,
                    const Inflow& inflow = {});
 
@@ -94,6 +94,10 @@ void add_further_reynolds_number(const Vector3d& direction, double reynolds_numb
 /// Adds cases with the quality's other closures for a direction whose ladder is planned, on the mesh before
 /// the last; none where the flow is laminar.
 void add_other_closures(const Vector3d& direction, BakePlan& plan);
+
+/// Returns the subdivisions of the stored map: those of the quality at least, and a multiple of the
+/// candidates', so that its nodes include them.
+int stored_subdivisions(const Candidates& candidates, const BakeQuality& quality);
 
 /// Returns the body's mass (kg): mass_asked_or_own(). Throws Error where there is neither a density nor a
 /// mass.

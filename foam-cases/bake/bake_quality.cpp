@@ -42,7 +42,7 @@ BakeQuality smoke_quality() {
     BakeQuality quality;
     quality.name = "smoke";
     quality.meshes = {coarse_mesh()};
-    quality.most_subdivisions = 2;
+    quality.directions = 6;
     quality.table_subdivisions = 2;
     quality.stationarity = 0.05;
     quality.most_iterations = 200;
@@ -72,7 +72,7 @@ BakeQuality high_quality() {
     quality.name = "high";
     quality.least_iterations = 200;
     quality.meshes = {uniform_mesh(10), uniform_mesh(14), uniform_mesh(20), uniform_mesh(28)};
-    quality.most_directions = 28;
+    quality.directions = 28;
     quality.table_subdivisions = 12;
     quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
     quality.falls = 2;

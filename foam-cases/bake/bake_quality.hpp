@@ -45,15 +45,15 @@ struct BakeQuality {
     Closure loads_closure = Closure::k_epsilon;       ///< for loads, where the flow is not laminar
     Closure turbulence_closure = Closure::k_epsilon;  ///< for k and epsilon, likewise
     Closure fall_closure = Closure::k_epsilon;        ///< for falls, where the flow is not laminar
-    int least_subdivisions = 2;                       ///< of the map of solved directions, at any cost
-    int most_subdivisions = 8;
-    int most_directions = 16;         ///< the limit for multiples of the least subdivisions
-    double share_on_last_mesh = 0.4;  ///< share of the directions, where there is more than one mesh
-    int table_subdivisions = 8;       ///< of the stored map, at least; its nodes include the solved ones
-    /// Further Reynolds numbers relative to the main one, solved in the directions of the map with the least
-    /// subdivisions on the mesh before the last, from the main one's solution there.
+    int directions = 16;  ///< at most; fewer where the symmetry leaves fewer candidates
+    /// The share of the directions that are solved on the last mesh, where there is more than one, and for
+    /// what follows.
+    double share_of_few = 0.4;
+    int table_subdivisions = 8;  ///< of the stored map, at least; its nodes include the solved ones
+    /// Further Reynolds numbers relative to the main one, solved in few directions on the mesh before the
+    /// last, from the main one's solution there.
     std::vector<double> further_reynolds_numbers;
-    /// Other closures, solved in the same directions: their spread is the closure's error.
+    /// Other closures, solved likewise: their spread is the closure's error.
     std::vector<Closures> other_closures;
     int falls = 0;                ///< number of free falls from which the dynamic coefficients are identified
     double fall_cells = 20'000;   ///< approximate number of cells of their mesh

@@ -1,9 +1,11 @@
 #include "foam-cases/bake/direction_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
+
+#include <Eigen/Cholesky>
 
 #include "converter/tables/direction_fit.hpp"
 #include "converter/tables/direction_sampling.hpp"
@@ -62,6 +64,96 @@ Wedge round_wedge(const Symmetry& symmetry) {
 
 Wedge wedge_of(const Symmetry& symmetry) {
     return symmetry.type == Symmetry::Type::finite ? finite_wedge(symmetry) : round_wedge(symmetry);
+}
+
+/// A quantity that walks at random over the sphere, known in some directions: the square of its change has
+/// the mean of the chord, and its mean value is uncertain by the change between opposite ends (covariance 2 -
+/// r). What is left of its variance is the mean squared error of the best weighted sum of the known values.
+class RandomWalk {
+  public:
+    /// Constructs the walk at the images of the candidates under a finite symmetry and in the weighted
+    /// directions, known nowhere.
+    RandomWalk(const Symmetry& symmetry, const std::vector<Vector3d>& candidates,
+               const std::vector<WeightedDirection>& weights)
+        : weights_(static_cast<Eigen::Index>(weights.size())) {
+        std::vector<Vector3d> places;
+        for (const Vector3d& candidate : candidates) {
+            const auto first = static_cast<std::ptrdiff_t>(places.size());
+            for (const Matrix3d& element : elements_in_map_axes(symmetry)) {
+                const Vector3d image = element * candidate;
+                const auto same = [&](const Vector3d& other) {
+                    return (other - image).norm() < direction_tolerance(symmetry);
+                };
+                if (std::none_of(places.begin() + first, places.end(), same)) {
+                    places.push_back(image);
+                }
+            }
+            blocks_.push_back({first, std::ssize(places) - first});
+        }
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            weights_[static_cast<Eigen::Index>(i)] = weights[i].weight;
+            places.push_back(weights[i].direction);
+        }
+        const auto count = static_cast<Eigen::Index>(places.size());
+        covariance_.resize(count, count);
+        for (Eigen::Index i = 0; i < count; ++i) {
+            for (Eigen::Index j = 0; j < count; ++j) {
+                covariance_(i, j) =
+                    2.0 - (places[static_cast<std::size_t>(i)] - places[static_cast<std::size_t>(j)]).norm();
+            }
+        }
+    }
+
+    /// Makes the walk known at the images of a candidate that it was not known at.
+    void know(std::size_t candidate) {
+        const auto [first, count] = blocks_[candidate];
+        const Eigen::MatrixXd columns = covariance_.middleCols(first, count);
+        const Eigen::MatrixXd block = columns.middleRows(first, count);
+        covariance_ -= columns * block.ldlt().solve(columns.transpose());
+    }
+
+    /// Returns the weighted mean of the variance that is left.
+    [[nodiscard]] double mean_square() const {
+        return weights_.dot(covariance_.diagonal().tail(weights_.size()));
+    }
+
+    /// Returns by how much know() would lower mean_square().
+    [[nodiscard]] double gain(std::size_t candidate) const {
+        const auto [first, count] = blocks_[candidate];
+        const Eigen::MatrixXd columns =
+            covariance_.block(covariance_.rows() - weights_.size(), first, weights_.size(), count);
+        const Eigen::MatrixXd block = covariance_.block(first, first, count, count);
+        const Eigen::MatrixXd solved = block.ldlt().solve(columns.transpose());
+        return weights_.dot(columns.cwiseProduct(solved.transpose()).rowwise().sum());
+    }
+
+  private:
+    /// The rows of a candidate's images.
+    struct Block {
+        Eigen::Index first;
+        Eigen::Index count;
+    };
+
+    Eigen::MatrixXd covariance_;  ///< given the known values; rows of the images, then of the weights
+    Eigen::VectorXd weights_;
+    std::vector<Block> blocks_;  ///< of each candidate
+};
+
+/// Returns the candidate outside of `chosen` for which `gain` is largest: the first of equals, between which
+/// rounding must not decide; none where all are chosen.
+template <typename Gain>
+std::optional<std::size_t> best_candidate(std::size_t count, const std::vector<std::size_t>& chosen,
+                                          const Gain& gain) {
+    std::optional<std::size_t> best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t index = 0; index < count; ++index) {
+        if (std::ranges::find(chosen, index) != chosen.end()) continue;
+        const double here = gain(index);
+        if (best && here <= most + 1e-9 * std::abs(most)) continue;
+        most = here;
+        best = index;
+    }
+    return best;
 }
 
 }  // namespace
@@ -128,9 +220,24 @@ Candidates candidate_directions(const Symmetry& symmetry, std::size_t most) {
     return candidates;
 }
 
+std::vector<std::size_t> ends_of_axes(const Symmetry& symmetry, const std::vector<Vector3d>& candidates) {
+    std::vector<std::size_t> found;
+    for (const Vector3d& end : required_directions(symmetry, 1)) {
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if ((candidates[i] - end).norm() < direction_tolerance(symmetry)) found.push_back(i);
+        }
+    }
+    return found;
+}
+
 double mean_squared_spread(const Symmetry& symmetry, const std::vector<Vector3d>& candidates,
                            const std::vector<std::size_t>& chosen,
                            const std::vector<WeightedDirection>& weights) {
+    if (symmetry.type == Symmetry::Type::finite) {
+        RandomWalk walk(symmetry, candidates, weights);
+        for (const std::size_t index : chosen) walk.know(index);
+        return walk.mean_square();
+    }
     std::vector<Vector3d> directions;
     directions.reserve(chosen.size());
     for (const std::size_t index : chosen) directions.push_back(candidates[index]);
@@ -147,26 +254,25 @@ std::vector<std::size_t> choose_directions(const Symmetry& symmetry, const std::
                                            const std::vector<std::size_t>& chosen,
                                            const std::vector<WeightedDirection>& weights, std::size_t count) {
     std::vector<std::size_t> all = chosen;
-    std::vector<std::size_t> more;
-    while (more.size() < count) {
-        std::optional<std::size_t> best;
-        double lowest = std::numeric_limits<double>::infinity();
-        for (std::size_t index = 0; index < candidates.size(); ++index) {
-            if (std::ranges::find(all, index) != all.end()) continue;
-            all.push_back(index);
-            const double left = mean_squared_spread(symmetry, candidates, all, weights);
-            all.pop_back();
-            // Rounding must not decide between equals.
-            if (left < lowest * (1.0 - 1e-9)) {
-                lowest = left;
-                best = index;
-            }
-        }
-        if (!best) break;
-        all.push_back(*best);
-        more.push_back(*best);
+    std::optional<RandomWalk> walk;
+    if (symmetry.type == Symmetry::Type::finite) {
+        walk.emplace(symmetry, candidates, weights);
+        for (const std::size_t index : chosen) walk->know(index);
     }
-    return more;
+    const auto gain = [&](std::size_t index) {
+        if (walk) return walk->gain(index);
+        all.push_back(index);
+        const double left = mean_squared_spread(symmetry, candidates, all, weights);
+        all.pop_back();
+        return -left;
+    };
+    while (all.size() < chosen.size() + count) {
+        const auto best = best_candidate(candidates.size(), all, gain);
+        if (!best) break;
+        if (walk) walk->know(*best);
+        all.push_back(*best);
+    }
+    return {all.begin() + static_cast<std::ptrdiff_t>(chosen.size()), all.end()};
 }
 
 }  // namespace samara

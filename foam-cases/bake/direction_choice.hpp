@@ -45,14 +45,20 @@ inline constexpr std::size_t most_candidates = 66;
 /// whose subdivisions are a power of two, at most 8.
 Candidates candidate_directions(const Symmetry& symmetry, std::size_t most = most_candidates);
 
-/// Returns the weighted mean square of the interpolation's spread (DirectionFit::spread) from the chosen
-/// candidates, to which the expected squared error of the loads is proportional.
+/// Returns the candidates (indices) that are ends of the map's axes, without which a table would extrapolate.
+std::vector<std::size_t> ends_of_axes(const Symmetry& symmetry, const std::vector<Vector3d>& candidates);
+
+/// Returns the weighted mean square error of a quantity that is known in the chosen candidates alone, by a
+/// measure that every further direction lowers: of a finite symmetry the error of the best weighted sum for a
+/// random walk over the sphere, whose squared increments have the mean of the chord; of a body of revolution
+/// the square of DirectionFit::spread.
 double mean_squared_spread(const Symmetry& symmetry, const std::vector<Vector3d>& candidates,
                            const std::vector<std::size_t>& chosen,
                            const std::vector<WeightedDirection>& weights);
 
 /// Chooses `count` more candidates (indices), each time the one that lowers mean_squared_spread() most; the
-/// first of equals, so that the choice is deterministic. Returns fewer where there are no more.
+/// first of equals, so that the choice is deterministic and a longer one begins like a shorter. Returns fewer
+/// where there are no more.
 std::vector<std::size_t> choose_directions(const Symmetry& symmetry, const std::vector<Vector3d>& candidates,
                                            const std::vector<std::size_t>& chosen,
                                            const std::vector<WeightedDirection>& weights, std::size_t count);

@@ -61,19 +61,6 @@ void add_directions(const std::vector<std::size_t>& more, ScenePlan& plan) {
     }
 }
 
-/// Returns the candidates that any table needs, since it would extrapolate without them.
-std::vector<std::size_t> anchors(const Symmetry& symmetry, const Candidates& candidates) {
-    std::vector<std::size_t> found;
-    for (const Vector3d& direction : required_directions(symmetry, 1)) {
-        for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
-            if ((candidates.directions[i] - direction).norm() < direction_tolerance(symmetry)) {
-                found.push_back(i);
-            }
-        }
-    }
-    return found;
-}
-
 /// Returns those of `count` candidates that are not chosen.
 std::vector<std::size_t> without(const std::vector<std::size_t>& chosen, std::size_t count) {
     std::vector<std::size_t> others;
@@ -196,13 +183,10 @@ ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality&
     plan.cases = plan_of_meshes(body, quality);
     plan.cases.inflow = inflow;
     plan.cases.covers_scene = true;
-    plan.cases.solved_subdivisions = plan.candidates.subdivisions;
-    // A multiple, so that the map's nodes include the candidates.
-    const int solved = plan.candidates.subdivisions;
-    plan.cases.subdivisions = solved * ((quality.table_subdivisions + solved - 1) / solved);
+    plan.cases.subdivisions = stored_subdivisions(plan.candidates, quality);
     plan.cases.main_reynolds_number = rounded_reynolds_number(mean_reynolds_number(simulation.visits));
     plan.region = visited_region(simulation.visits, symmetry);
-    add_directions(anchors(symmetry, plan.candidates), plan);
+    add_directions(ends_of_axes(symmetry, plan.candidates.directions), plan);
     const std::size_t few =
         symmetry.type == Symmetry::Type::axial ? first_directions_of_arc : first_directions;
     add_directions(goal.whole_grid ? without(plan.chosen, plan.candidates.directions.size())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,6 +42,12 @@ Symmetry body_of_revolution() {
     Symmetry symmetry = test::box_symmetry();
     symmetry.type = Symmetry::Type::axial;
     symmetry.axis = Vector3d::UnitZ();
+    return symmetry;
+}
+
+Symmetry one_mirror() {
+    Symmetry symmetry;
+    symmetry.elements = {Matrix3d::Identity(), Vector3d(1.0, -1.0, 1.0).asDiagonal().toDenseMatrix()};
     return symmetry;
 }
 
@@ -118,19 +125,20 @@ TEST(CandidateDirections, AreAWedgeOfTheFinestMapThatIsAffordable) {
     EXPECT_EQ(candidate_directions(ball()).directions.size(), 1u);
 }
 
-/// The indices of the directions that every table of a box has.
-std::vector<std::size_t> axes_of(const Candidates& candidates) {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
-        if (candidates.directions[i].maxCoeff() == 1.0) found.push_back(i);
-    }
-    return found;
+TEST(EndsOfAxes, AreOneOfEachSetThatTheSymmetryMakesAlike) {
+    const auto ends = [](const Symmetry& symmetry) {
+        return ends_of_axes(symmetry, candidate_directions(symmetry).directions).size();
+    };
+    EXPECT_EQ(ends(Symmetry()), 6u);
+    EXPECT_EQ(ends(test::box_symmetry()), 3u);
+    EXPECT_EQ(ends(test::cube_symmetry()), 1u);
+    EXPECT_EQ(ends(ball()), 1u);
 }
 
 TEST(ChooseDirections, TakesTheCandidateInTheMiddleOfTheVisitsFirst) {
     const Symmetry box = test::box_symmetry();
     const Candidates candidates = candidate_directions(box);
-    const std::vector<std::size_t> axes = axes_of(candidates);
+    const std::vector<std::size_t> axes = ends_of_axes(box, candidates.directions);
     ASSERT_EQ(axes.size(), 3u);
     const auto middle = static_cast<std::size_t>(
         std::ranges::max_element(candidates.directions, {},
@@ -145,7 +153,7 @@ TEST(ChooseDirections, LowersTheUncertaintyWithEveryDirectionAndRepeatsNone) {
     const Symmetry box = test::box_symmetry();
     const Candidates candidates = candidate_directions(box);
     const auto weights = direction_weights(visits_along({{1, 0.1, 0}, {1, 0.2, 0.1}, {0.8, 0.6, 0}}), box);
-    std::vector<std::size_t> chosen = axes_of(candidates);
+    std::vector<std::size_t> chosen = ends_of_axes(box, candidates.directions);
     double before = mean_squared_spread(box, candidates.directions, chosen, weights);
     for (int i = 0; i < 6; ++i) {
         const auto more = choose_directions(box, candidates.directions, chosen, weights, 1);
@@ -156,8 +164,41 @@ TEST(ChooseDirections, LowersTheUncertaintyWithEveryDirectionAndRepeatsNone) {
         EXPECT_LT(left, before);
         before = left;
     }
-    const auto at_once = choose_directions(box, candidates.directions, axes_of(candidates), weights, 6);
+    const auto at_once =
+        choose_directions(box, candidates.directions, ends_of_axes(box, candidates.directions), weights, 6);
     EXPECT_TRUE(std::ranges::equal(at_once, std::vector<std::size_t>(chosen.begin() + 3, chosen.end())));
+}
+
+TEST(ChooseDirections, FindsNoDirectionThatMakesTheUncertaintyLarger) {
+    const Symmetry mirrored = one_mirror();
+    const Candidates candidates = candidate_directions(mirrored);
+    const auto weights = direction_weights({}, mirrored);
+    const std::vector<std::size_t> ends = ends_of_axes(mirrored, candidates.directions);
+    const double before = mean_squared_spread(mirrored, candidates.directions, ends, weights);
+    for (std::size_t index = 0; index < candidates.directions.size(); ++index) {
+        if (std::ranges::count(ends, index) > 0) continue;
+        std::vector<std::size_t> more = ends;
+        more.push_back(index);
+        EXPECT_LT(mean_squared_spread(mirrored, candidates.directions, more, weights), before);
+    }
+}
+
+TEST(ChooseDirections, LeavesNoHoleAroundABodyWithOneMirror) {
+    const Symmetry mirrored = one_mirror();
+    const Candidates candidates = candidate_directions(mirrored);
+    const auto weights = direction_weights({}, mirrored);
+    std::vector<std::size_t> chosen = ends_of_axes(mirrored, candidates.directions);
+    const auto more = choose_directions(mirrored, candidates.directions, chosen, weights, 11);
+    chosen.insert(chosen.end(), more.begin(), more.end());
+    for (const WeightedDirection& here : weights) {
+        double nearest = -1.0;
+        for (const std::size_t index : chosen) {
+            for (const Matrix3d& element : mirrored.elements) {
+                nearest = std::max(nearest, here.direction.dot(element * candidates.directions[index]));
+            }
+        }
+        EXPECT_GT(nearest, std::cos(40.0 * std::numbers::pi / 180.0)) << here.direction.transpose();
+    }
 }
 
 TEST(ChooseDirections, EndsWhereAllAreChosen) {
