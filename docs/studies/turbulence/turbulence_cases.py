@@ -26,7 +26,8 @@ DIRECTIONS = {
     "capsule-67": ("capsule", (math.sin(math.radians(23)), 0.0, math.cos(math.radians(23)))),
     "capsule-0": ("capsule", (1, 0, 0)),
 }
-BLUNT = ("disc-0", "disc-45", "sheet-0", "sheet-45", "cube-0", "cube-45", "ellipsoid-0", "capsule-0")
+BLUNT = ("disc-0", "disc-45", "sheet-0", "sheet-45", "cube-0", "cube-45", "ellipsoid-0", "capsule-0", "box-0", "box-45",
+         "spheroid-0")
 
 # As a bake solves k and epsilon (bake_quality.cpp), to its tolerance.
 STEADY = {"roundIterations": 50, "leastIterations": 150, "mostIterations": 600, "stationarity": 0.01}
