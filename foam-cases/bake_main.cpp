@@ -34,7 +34,7 @@ struct BakeOptions {
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
     int ranks = 1;
     std::string cluster;
-    std::string quality = "preview";
+    std::string quality = usual_quality;
     std::string loads;  ///< empty: the default closure of the quality
     std::string turbulence = "kEpsilon";
     std::string falls;  ///< empty: the closure of the loads
@@ -211,6 +211,7 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
                 bake_body(request, {options.jobs, options.cluster}, [&](const BakePreparation& preparation) {
                     note_warnings(notes, request, preparation);
                     notes.print();
+                    note_cost(request, preparation, options.jobs);
                 });
             warn_of_left_out_cases(request, result);
             warn_of_unbalanced_falls(request, result);
@@ -250,9 +251,11 @@ int run(int argc, const char* const* argv) {
         "--cluster", options.cluster,
         "Slurm command that submits a job, such as \"sbatch --partition=short\": solves each case as a "
         "cluster job, --jobs in parallel; the output must be in a folder that the nodes share");
-    arguments.choice("--quality", options.quality, bake_quality_names(),
-                     "smoke: seconds, for tests only; preview: half a minute on two cores; standard: three "
-                     "meshes and Reynolds numbers; high: four meshes and three closures");
+    arguments.choice(
+        "--quality", options.quality, bake_quality_names(),
+        "smoke: seconds, for tests only; preview: half a minute on two cores, for trying a bake; "
+        "standard: three meshes and Reynolds numbers, and two falls; high: four meshes and three "
+        "closures");
     arguments.choice("--loads", options.loads, {"kEpsilon", "kOmegaSST", "kOmegaSSTLM"},
                      "closure for forces, moments and falls; by default kOmegaSSTLM at standard and high, "
                      "kEpsilon at lower qualities");

@@ -27,7 +27,7 @@ struct PlanOptions {
     std::string scene;
     std::string bodies;
     std::string picture;
-    std::string quality = "preview";
+    std::string quality = usual_quality;
     double tolerance = SceneBakeOptions().tolerance;
 };
 

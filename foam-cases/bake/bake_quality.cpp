@@ -187,6 +187,12 @@ BakeQuality bake_quality(const std::string& name) {
         fmt::format("unknown quality '{}'; choose one of {}", name, fmt::join(bake_quality_names(), ", ")));
 }
 
+std::optional<FallErrors> errors_on_held_out_falls(const std::string& quality) {
+    if (quality == "preview") return FallErrors{0.52, 0.72};
+    if (quality == "standard") return FallErrors{0.05, 0.25};
+    return {};
+}
+
 Closure usual_loads_closure(const std::string& quality) {
     return quality == "standard" || quality == "high" ? Closure::k_omega_sst_lm : Closure::k_epsilon;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,19 @@ struct Closures {
     Closure loads;
     Closure turbulence;
 };
+
+/// The quality where none is asked for.
+inline constexpr const char* usual_quality = "standard";
+
+/// Mean errors of falls, relative.
+struct FallErrors {
+    double descent;
+    double worst_metric;  ///< of descent, frequency, amplitude and rms angular speed; another regime counts 1
+};
+
+/// Returns the errors of bakes of a quality on the nine held-out falls (docs/explanation/accuracy.md);
+/// nothing of qualities that were not flown there.
+std::optional<FallErrors> errors_on_held_out_falls(const std::string& quality);
 
 /// The settings of --quality. All directions are solved on every mesh but the last and a share of them on the
 /// last too, coarsest first, each from the solution of the same direction on the mesh before: this start is

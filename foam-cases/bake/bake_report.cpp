@@ -131,6 +131,35 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
     return json;
 }
 
+namespace {
+
+/// Returns what the plan costs and, where that was measured, what it brings, in one line.
+std::string cost_of(const BakeRequest& request, const BakePlan& plan, int jobs) {
+    const std::size_t all = plan.cases.size() + plan.falls.size();
+    const double at_once = std::min<double>(jobs, static_cast<double>(all));
+    std::string text = fmt::format(
+        "{} cases and falls, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", all,
+        plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
+        1e-6 * bytes_to_solve(case_folder_of(request), plan));
+    if (const auto errors = errors_on_held_out_falls(plan.quality.name);
+        errors && !request.baked && request.probes == 0) {
+        text += fmt::format(
+            "; on held-out falls bakes of this quality were off by {:.0f} % of the descent and {:.0f} % of "
+            "the "
+            "worst metric",
+            100.0 * errors->descent, 100.0 * errors->worst_metric);
+    }
+    return text;
+}
+
+}  // namespace
+
+void note_cost(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
+    if (!preparation.plan) return;
+    print_note("samara bake: {}: quality {}, {}\n", request.output.string(), preparation.plan->quality.name,
+               cost_of(request, *preparation.plan, jobs));
+}
+
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
     if (!preparation.plan) {
         print_result("{}: mesh and Kirchhoff tensor only; the scene uses no tables\n",
@@ -151,12 +180,8 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
         print_result("  {}  a free fall of {:.3g} s on {}\n", fall.name, fall.duration * fall.time_unit(),
                      fall.mesh);
     }
-    const double at_once = std::min<double>(jobs, static_cast<double>(plan.cases.size()));
-    print_result(
-        "meshes of about {:.0f} cells, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on "
-        "disk\n",
-        fmt::join(plan.cells, ", "), plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
-        1e-6 * bytes_to_solve(case_folder_of(request), plan));
+    print_result("meshes of about {:.0f} cells\n{}\n", fmt::join(plan.cells, ", "),
+                 cost_of(request, plan, jobs));
 }
 
 void print_result(const BakeRequest& request, const BakeResult& result) {

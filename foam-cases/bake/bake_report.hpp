@@ -15,6 +15,9 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);
 void print_result(const BakeRequest& request, const BakeResult& result);
 
+/// Prints in one line on standard error what will be solved, what it costs, and the errors to expect.
+void note_cost(const BakeRequest& request, const BakePreparation& preparation, int jobs);
+
 /// Adds notes where a quantity seems to be in another unit, and where the Reynolds number is below
 /// laminar_reynolds_number.
 void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation);

@@ -51,10 +51,10 @@ class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
         items=[
             ("SHAPE", "Added mass only", "Takes a second, without OpenFOAM. Loads come from the surface or from coefficients"),
             ("SMOKE", "Smoke", "The coarsest tables, for tests only"),
-            ("PREVIEW", "Preview", "Tables from OpenFOAM in a few minutes, for a first look"),
-            ("STANDARD", "Standard", "Tables for production; takes many minutes"),
+            ("PREVIEW", "Preview", "Tables from OpenFOAM in a minute or two, for trying a bake; falls are further off than without tables"),
+            ("STANDARD", "Standard", "Tables for work; takes ten minutes and more"),
         ],
-        default="PREVIEW",
+        default="STANDARD",
     )
 
     @classmethod

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iterator>
+#include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +14,7 @@
 #include "converter/tables/direction_sampling.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/scene/terminal_speed.hpp"
+#include "paths.hpp"
 #include "support/expect_error.hpp"
 #include "test_bodies.hpp"
 
@@ -299,6 +303,21 @@ TEST(BakeReynoldsNumber, HasThreeDigits) {
 
 TEST(BakeQuality, OfAnUnknownNameIsRejected) {
     EXPECT_THROW(bake_quality("perfect"), Error);
+}
+
+TEST(BakeQuality, ExpectsTheErrorsOfTheAccuracyPage) {
+    std::ifstream file(SAMARA_SOURCE_DIRECTORY "/docs/explanation/accuracy.md");
+    const std::string page((std::istreambuf_iterator<char>(file)), {});
+    for (const char* quality : {"preview", "standard"}) {
+        const auto errors = errors_on_held_out_falls(quality);
+        ASSERT_TRUE(errors);
+        const auto row = page.find(fmt::format("| held-out falls | {} bake |", quality));
+        ASSERT_NE(row, std::string::npos);
+        EXPECT_THAT(page.substr(row, page.find('\n', row) - row),
+                    testing::EndsWith(fmt::format("| {:.0f} % | {:.0f} % |", 100.0 * errors->descent,
+                                                  100.0 * errors->worst_metric)));
+    }
+    EXPECT_FALSE(errors_on_held_out_falls("high"));
 }
 
 TEST(BakeQuality, HasTheLoadsByTheClosureWithTransitionFromStandardOn) {

@@ -244,12 +244,27 @@ TEST_F(Bake, WithoutOpenFoamNamesThePackages) {
 
 TEST_F(Bake, DryRunWritesNothing) {
     const fs::path file = write_body(test::ellipsoid({0.01, 0.02, 0.04}));
-    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run --json", file.string()));
+    const test::ProgramRun run =
+        bake(fmt::format("{} -o out.body.h5 --quality preview --dry-run --json", file.string()));
     ASSERT_EQ(run.status, 0) << run.error;
     EXPECT_EQ(run.json()["cases"].size(), 23u);  // 16 directions, seven of them on two meshes
     EXPECT_GT(run.json()["estimated_cpu_seconds"].get<double>(), 10.0);
     EXPECT_FALSE(fs::exists(output_));
     EXPECT_FALSE(fs::exists(cases_));
+}
+
+TEST_F(Bake, IsOfQualityStandardAndSaysItsCostAndTheErrorsToExpect) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --dry-run", file.string()));
+    EXPECT_EQ(run.status, 0) << run.error;
+    EXPECT_THAT(run.output, HasSubstr("12 cases and falls, "));
+    EXPECT_THAT(run.output,
+                HasSubstr(" MB on disk; on held-out falls bakes of this quality were off by 5 %"));
+    const test::ProgramRun smoke =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --json", file.string()));
+    EXPECT_EQ(smoke.status, 0) << smoke.error;
+    EXPECT_THAT(smoke.error, HasSubstr("samara bake: out.body.h5: quality smoke, 1 cases and falls, "));
+    EXPECT_THAT(smoke.error, Not(HasSubstr("held-out")));
 }
 
 TEST_F(Bake, SaysWhereTheFlowIsTakenAsLaminar) {
