@@ -133,6 +133,13 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 
 namespace {
 
+/// Whether the bake is like those of its quality whose falls were held against full CFD.
+bool is_as_flown(const BakeRequest& request, const BakePlan& plan) {
+    const BakeQuality& quality = plan.quality;
+    return !request.baked && request.probes == 0 && quality.falls == bake_quality(quality.name).falls &&
+           quality.loads_closure == usual_loads_closure(quality.name);
+}
+
 /// Returns what the plan costs and, where that was measured, what it brings, in one line.
 std::string cost_of(const BakeRequest& request, const BakePlan& plan, int jobs) {
     const std::size_t all = plan.cases.size() + plan.falls.size();
@@ -141,12 +148,12 @@ std::string cost_of(const BakeRequest& request, const BakePlan& plan, int jobs) 
         "{} cases and falls, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", all,
         plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
         1e-6 * bytes_to_solve(case_folder_of(request), plan));
+    if (request.goal) text += "; further rounds may follow";
     if (const auto errors = errors_on_held_out_falls(plan.quality.name);
-        errors && !request.baked && request.probes == 0) {
+        errors && is_as_flown(request, plan)) {
         text += fmt::format(
-            "; on held-out falls bakes of this quality were off by {:.0f} % of the descent and {:.0f} % of "
-            "the "
-            "worst metric",
+            "; on held-out falls bakes of this quality were off by {:.0f} % of the descent and "
+            "{:.0f} % of the worst metric",
             100.0 * errors->descent, 100.0 * errors->worst_metric);
     }
     return text;
