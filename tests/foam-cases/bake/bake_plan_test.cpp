@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "converter/tables/direction_sampling.hpp"
+#include "paths.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/scene/terminal_speed.hpp"
-#include "paths.hpp"
 #include "support/expect_error.hpp"
 #include "test_bodies.hpp"
 
