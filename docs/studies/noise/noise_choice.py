@@ -2,9 +2,9 @@
 """How the form of the wake's noise was chosen (README.md): what forms make of the tables' slopes, beside full CFD.
 
     noise_choice.py BIN    fits the forms' numbers to the cases of noise_report.py that the choice is by, and prints by what
-                           factor each is off in the mean, there and on the other cases; then the chosen form, refitted
-                           without each body, on that body, and with a body's own numbers; and how long the loads last.
-                           BIN: the folder of the programs. Run from the project's folder.
+                           factor each is off in the mean, there and on the other cases, all of ready-baked bodies; then the
+                           chosen form, refitted without each body, on that body, and with a body's own numbers; and how
+                           long the loads last. BIN: the folder of the programs. Run from the project's folder.
 
 A load's rms is that of table(w - u) for small slips u, to the first order; flights average over 0.24 L/U besides. Factors are
 means of |log|; a load that is off by more than e^2 counts as that in the fit, and by no more than e^5 in the mean.
@@ -58,7 +58,8 @@ class Case:
         words = [f"{programs}/samara", "info", file_of(self.shape), "--json", "--reynolds-number", str(reynolds),
                  "--direction", ",".join(f"{x:.9g}" for x in velocity)]
         entry = json.loads(subprocess.run(words, check=True, capture_output=True).stdout)
-        return [dot(velocity, velocity) * x for x in entry["force"] + entry["moment"]], entry["turbulent_kinetic_energy"], entry["dissipation_rate"]
+        loads = [dot(velocity, velocity) * x for x in entry["force"] + entry["moment"]]
+        return loads, entry["turbulent_kinetic_energy"], entry["dissipation_rate"]
 
     @staticmethod
     def shadow(triangles, axis):
@@ -142,7 +143,7 @@ def print_times(rows, cases):
 
 
 def main(programs):
-    rows = judged(read_rows())
+    rows = [row for row in judged(read_rows()) if os.path.exists(file_of(CASES[row.case][0]))]
     cases = {name: Case(programs, name, rows) for name in CASES if any(row.case == name for row in rows)}
     choice = [case for name, case in cases.items() if name in FITTED]
     test = [case for name, case in cases.items() if name not in FITTED]

@@ -398,7 +398,8 @@ def table_of_sums(rows):
     lines = ["| loads of | model | rms over CFD's, median | off by a factor of | within 30 % | lasting over CFD's, median | off by | within a factor of 1.5 |",
              "|---" * 8 + "|"]
     groups = {"the choice": FITTED, "the test": [case for case in CASES if case not in FITTED]}
-    groups |= {f"of it the {body}": [case for case in groups["the test"] if CASES[case][0] == body] for body in ("cube", "box", "spheroid", "disc", "ellipsoid")}
+    groups |= {f"of it the {body}": [case for case in groups["the test"] if CASES[case][0] == body]
+               for body in ("cube", "box", "spheroid", "disc", "ellipsoid")}
     for group, cases in groups.items():
         some = [row for row in judged(rows) if row.case in cases]
         if not some:
