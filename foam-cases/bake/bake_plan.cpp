@@ -46,7 +46,7 @@ double mean_width(const Surface& surface) {
     double weights = 0.0;
     for (int row = 0; row < nodes; ++row) {
         for (int column = 0; column < nodes; ++column) {
-            const auto here = static_cast<std::size_t>(row * nodes + column);
+            const auto here = static_cast<std::size_t>(row) * nodes + static_cast<std::size_t>(column);
             if (unique_node(subdivisions, row, column) != here) continue;
             const Vector3d direction = octahedral_node(subdivisions, row, column);
             double lowest = direction.dot(surface.vertices.front());
