@@ -169,6 +169,13 @@ BakeCase case_of_few(const Vector3d& direction, const BakePlan& plan) {
     return *found;
 }
 
+// Returns the number of directions to solve, at most.
+std::size_t most_directions(const Symmetry& symmetry, const BakeQuality& quality) {
+    constexpr std::size_t many_images = 4;
+    const bool few_images = symmetry.type == Symmetry::Type::finite && symmetry.elements.size() < many_images;
+    return static_cast<std::size_t>(few_images ? quality.directions_without_symmetry : quality.directions);
+}
+
 // Adds the cases of the main Reynolds number in as many directions as the quality asks for, and those on the
 // last mesh, at further Reynolds numbers and by other closures in the first of them.
 void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan& plan) {
@@ -177,13 +184,13 @@ void plan_cases(const Symmetry& symmetry, double main_reynolds_number, BakePlan&
     plan.subdivisions = stored_subdivisions(candidates, quality);
     plan.main_reynolds_number = main_reynolds_number;
     std::vector<std::size_t> chosen = ends_of_axes(symmetry, candidates.directions);
-    const auto count = static_cast<std::size_t>(quality.directions);
+    const std::size_t count = most_directions(symmetry, quality);
     const auto more =
         choose_directions(symmetry, candidates.directions, chosen, direction_weights({}, symmetry),
                           count - std::min(count, chosen.size()));
     chosen.insert(chosen.end(), more.begin(), more.end());
-    const auto few =
-        static_cast<std::size_t>(std::ceil(quality.share_of_few * static_cast<double>(chosen.size())));
+    const std::size_t usual = std::min(chosen.size(), static_cast<std::size_t>(quality.directions));
+    const auto few = static_cast<std::size_t>(std::ceil(quality.share_of_few * static_cast<double>(usual)));
     const bool one_mesh = quality.meshes.size() < 2;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         add_ladder("direction", i, candidates.directions[chosen[i]], main_reynolds_number, plan,

@@ -43,6 +43,7 @@ BakeQuality smoke_quality() {
     quality.name = "smoke";
     quality.meshes = {coarse_mesh()};
     quality.directions = 6;
+    quality.directions_without_symmetry = 6;
     quality.table_subdivisions = 2;
     quality.stationarity = 0.05;
     quality.most_iterations = 200;
@@ -62,6 +63,7 @@ BakeQuality standard_quality() {
     quality.name = "standard";
     quality.stationarity = 0.01;
     quality.meshes = {uniform_mesh(10), uniform_mesh(14), uniform_mesh(20)};
+    quality.directions_without_symmetry = 28;
     quality.further_reynolds_numbers = {0.1, 0.3};
     quality.falls = 2;
     return quality;
@@ -73,6 +75,7 @@ BakeQuality high_quality() {
     quality.least_iterations = 200;
     quality.meshes = {uniform_mesh(10), uniform_mesh(14), uniform_mesh(20), uniform_mesh(28)};
     quality.directions = 28;
+    quality.directions_without_symmetry = 28;
     quality.table_subdivisions = 12;
     quality.further_reynolds_numbers = {0.1, 0.3, 3.0};
     quality.falls = 2;

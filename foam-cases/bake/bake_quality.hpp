@@ -60,7 +60,10 @@ struct BakeQuality {
     Closure turbulence_closure = Closure::k_epsilon;  ///< for k and epsilon, likewise
     Closure fall_closure = Closure::k_epsilon;        ///< for falls, where the flow is not laminar
     int directions = 16;  ///< at most; fewer where the symmetry leaves fewer candidates
-    /// The share of the directions that are solved on the last mesh, where there is more than one, and for
+    /// The same of bodies of which the symmetry makes fewer than four directions equivalent (one mirror,
+    /// none).
+    int directions_without_symmetry = 16;
+    /// The share of `directions` that are solved on the last mesh, where there is more than one, and for
     /// what follows.
     double share_of_few = 0.4;
     int table_subdivisions = 8;  ///< of the stored map, at least; its nodes include the solved ones

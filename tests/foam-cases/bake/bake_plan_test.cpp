@@ -87,6 +87,22 @@ TEST(BakePlan, SolvesSixteenDirectionsOfABodyWithoutSymmetry) {
     EXPECT_EQ(of_purpose(preview_of(body), CasePurpose::mesh).size(), 16u);
 }
 
+TEST(BakePlan, StandardSolvesMoreDirectionsWhereTheSymmetryMakesFewOfThemEquivalent) {
+    const auto directions_on = [](const Body& body, std::size_t mesh) {
+        const BakePlan plan = plan_bake(body, bake_quality("standard"), 1e4);
+        return std::ranges::count_if(plan.cases, [&](const BakeCase& entry) {
+            return entry.mesh == plan.quality.meshes[mesh].name &&
+                   entry.reynolds_number == plan.main_reynolds_number;
+        });
+    };
+    Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    EXPECT_EQ(directions_on(body, 1), 16);
+    EXPECT_EQ(directions_on(body, 2), 7);
+    body.symmetry.elements = {Matrix3d::Identity(), Vector3d(1.0, -1.0, 1.0).asDiagonal()};
+    EXPECT_EQ(directions_on(body, 1), 28);
+    EXPECT_EQ(directions_on(body, 2), 7);
+}
+
 TEST(BakePlan, StartsEachMainCaseFromTheSameDirectionOnTheNextCoarserMesh) {
     const BakePlan plan = plan_bake(test::ellipsoid({0.01, 0.02, 0.04}), bake_quality("standard"), 1e4);
     ASSERT_EQ(plan.quality.meshes.size(), 3u);
