@@ -186,11 +186,11 @@ json fall_as_json(const FallSeries& fall, double end) {
 }
 
 json share_of_time(const FallSet& set) {
-    InclinationHistogram shares{};
+    std::array<double, inclination_bins> shares{};
     double all = 0.0;
-    for (const auto& fall : set.histograms) {
-        for (const InclinationHistogram& piece : fall) {
-            for (std::size_t i = 0; i < piece.size(); ++i) {
+    for (const auto& fall : set.histograms[static_cast<std::size_t>(Distribution::inclination)]) {
+        for (const Histogram& piece : fall) {
+            for (std::size_t i = 0; i < shares.size(); ++i) {
                 shares[i] += piece[i];
                 all += piece[i];
             }
@@ -224,6 +224,8 @@ json motion_picture(const std::string& picture, const Motion& motion, const Body
 
 json comparison_picture(const Comparison& all, const std::string& motion, const std::string& reference) {
     const double end = drawn_time(all);
+    const DistributionDistance& distance =
+        all.distributions[static_cast<std::size_t>(Distribution::inclination)].distance;
     json picture = {{"picture", "comparison"},
                     {"name", all.motion_body},
                     {"motion", side_as_json(all.motion, motion, end)},
@@ -235,9 +237,9 @@ json comparison_picture(const Comparison& all, const std::string& motion, const 
                     {"agrees", all.agrees},
                     {"certain", all.certain},
                     {"first_swing_end", or_null(all.first_swing.end)},
-                    {"distance", all.distribution.distance},
+                    {"distance", distance.distance},
                     {"probability", nullptr}};
-    if (all.distribution.chance) picture["probability"] = all.distribution.chance->probability;
+    if (distance.chance) picture["probability"] = distance.chance->probability;
     for (const Metric metric : compared_metrics) {
         const MetricComparison& one = all.metrics[metric];
         json error;

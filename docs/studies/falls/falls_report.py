@@ -216,7 +216,7 @@ def row_of(scene, noise, comparison):
                 measure["reference_uncertainty"] / magnitude if magnitude and measure.get("reference_uncertainty") else None]
     apart = comparison["first_swing"]["path_distance"]
     return row + [apart["value"] if apart else None,
-                  "yes" if comparison["agrees"] else "no"]
+                  "yes" if comparison["agrees_by_metrics"] else "no"]
 
 
 def largest_miss(differences, wrong_regime):
@@ -390,7 +390,7 @@ def summary_of(comparisons):
     descents = [abs(comparison["measures"]["descent_speed"]["relative_difference"]) for comparison in falls]
     return [sum(worst_figure(comparison) for comparison in falls) / len(falls),
             sum(comparison["regimes_agree"] for comparison in falls),
-            sum(comparison["agrees"] for comparison in falls), sum(descents) / len(descents)]
+            sum(comparison["agrees_by_metrics"] for comparison in falls), sum(descents) / len(descents)]
 
 
 def fly_fewer(programs, folder):

@@ -78,7 +78,7 @@ def row_of(programs, scene, model, seconds, motion):
     regimes = comparison["motion"]["regime"], comparison["reference"]["regime"]
     is_right = regimes[0] == regimes[1]
     row = [scene, model, seconds, max(worst_figure(comparison), 0.0 if is_right else 1.0), *regimes,
-           "yes" if comparison["agrees"] and is_right else "no"]
+           "yes" if comparison["agrees_by_metrics"] and is_right else "no"]
     for figure in FIGURES:
         measure = comparison["measures"].get(figure) or {}
         magnitude = abs((measure.get("reference") or {}).get("value") or 0.0)

@@ -76,7 +76,7 @@ def row_of(fall, who, comparison):
     row |= {name: (comparison["measures"].get(figure) or {}).get("relative_difference")
             for name, figure in FIGURES.items()}
     return row | {"regime": comparison["motion"]["regime"], "regime_cfd": comparison["reference"]["regime"],
-                  "worst": worst_figure(comparison), "agrees": agreement(fall, comparison["agrees"], comparison["regimes_agree"])}
+                  "worst": worst_figure(comparison), "agrees": agreement(fall, comparison["agrees_by_metrics"], comparison["regimes_agree"])}
 
 
 def peer(programs, scenes, who, coefficients, model="mujoco", falls=FALLS):

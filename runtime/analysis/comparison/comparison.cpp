@@ -22,6 +22,10 @@ constexpr double same_area = 0.05;
 constexpr double same_start = 2.0 * degree;
 constexpr double fewest_frames = 6.0;
 constexpr std::size_t few_pieces = 5;
+// Falls of which fewer are of one regime have none.
+constexpr double least_share_of_regime = 0.9;
+// The drift speed of irregular falls may differ by so many tolerances of the descent speed, of that speed.
+constexpr double drift_over_descent = 2.0;
 
 using Notes = std::vector<std::string>;
 
@@ -212,18 +216,75 @@ void compare_first_swings(Comparison& all) {
     all.first_swing.maximum_inclination = compare_turn(a.maximum, b.maximum, &TurningPoint::inclination);
 }
 
-void judge(Comparison& all) {
-    all.regimes_agree = all.motion.regimes.commonest() == all.reference.regimes.commonest();
-    all.agrees = all.regimes_agree || !all.judges_inclination || all.regime_is_uncertain;
-    bool all_certain = !(all.judges_inclination && all.regime_is_uncertain);
-    bool surely_differs = !all.agrees;
-    for (const MetricComparison& metric : all.metrics) {
-        if (!metric.verdict) continue;
-        all.agrees = all.agrees && metric.verdict->agrees;
-        all_certain = all_certain && metric.verdict->certain;
-        surely_differs = surely_differs || (!metric.verdict->agrees && metric.verdict->certain);
+/// Returns why a side's falls tell no single frequency, amplitude or regime; empty where they do.
+std::string irregularity_of(const char* which, const FallSet& set) {
+    const Regime commonest = set.regimes.commonest();
+    if (commonest == Regime::chaotic) return fmt::format("the {} is chaotic", which);
+    const double share = set.regimes.share(commonest);
+    if (share >= least_share_of_regime) return {};
+    return fmt::format("{:.0f} % of the {}'s falls are {}, the others are not", 100.0 * share, which,
+                       name_of(commonest));
+}
+
+std::string irregularity_of(const Comparison& all) {
+    if (!all.judges_inclination) return {};
+    if (all.regime_is_uncertain) return "the reference's regime depends on its mesh or closure";
+    const std::string of_reference = irregularity_of("reference", all.reference);
+    return of_reference.empty() ? irregularity_of("motion", all.motion) : of_reference;
+}
+
+Verdict verdict_on(const DistributionDistance& distance) {
+    const double by_chance = distance.chance ? distance.chance->mean : 0.0;
+    const double beyond = distance.distance - by_chance;
+    Verdict verdict{.limit = by_chance + largest_distribution_distance};
+    verdict.agrees = beyond <= largest_distribution_distance;
+    verdict.certain = distance.chance && std::abs(beyond - largest_distribution_distance) >=
+                                             distance.chance->limit - distance.chance->mean;
+    return verdict;
+}
+
+/// Sums up verdicts: all must agree.
+struct Judgement {
+    bool agrees = true;
+    bool all_certain = true;
+    bool surely_differs = false;
+
+    void add(const std::optional<Verdict>& verdict) {
+        if (!verdict) return;
+        agrees = agrees && verdict->agrees;
+        all_certain = all_certain && verdict->certain;
+        surely_differs = surely_differs || (!verdict->agrees && verdict->certain);
     }
-    all.certain = all.agrees ? all_certain : surely_differs;
+    [[nodiscard]] bool certain() const { return agrees ? all_certain : surely_differs; }
+};
+
+void judge_by_metrics(Comparison& all) {
+    Judgement judgement;
+    if (all.judges_inclination) {
+        const bool decides = !all.regime_is_uncertain;
+        judgement.add(Verdict{0.0, all.regimes_agree || !decides, decides});
+    }
+    for (const Metric metric : compared_metrics) judgement.add(all.metrics[metric].verdict);
+    all.agrees = all.agrees_by_metrics = judgement.agrees;
+    all.certain = judgement.certain();
+}
+
+void judge_by_distributions(Comparison& all, const PerMetric<double>& tolerances) {
+    const double speed = all.reference.metrics[Metric::descent_speed]->value;
+    MetricComparison& drift = all.metrics[Metric::drift_speed];
+    drift = compare_metric(drift.motion, drift.reference, 0.0,
+                           drift_over_descent * tolerances[Metric::descent_speed] * std::abs(speed));
+    Judgement judgement;
+    judgement.add(all.metrics[Metric::descent_speed].verdict);
+    judgement.add(drift.verdict);
+    for (DistributionComparison& one : all.distributions) {
+        one.verdict = verdict_on(one.distance);
+        // What the regime of a reference depends on, its distributions do too.
+        one.verdict->certain = one.verdict->certain && !all.regime_is_uncertain;
+        judgement.add(one.verdict);
+    }
+    all.agrees = judgement.agrees;
+    all.certain = judgement.certain();
 }
 
 void compare_metrics(Comparison& all, const BodyMotion& reference, const PerMetric<double>& tolerances) {
@@ -244,8 +305,14 @@ void compare_metrics(Comparison& all, const BodyMotion& reference, const PerMetr
             compare_metric(all.motion.inclination_quantiles[q], all.reference.inclination_quantiles[q]);
     }
     all.regime_is_uncertain = uncertainty_of(reference, regime_key) > 0.0;
-    all.distribution = distribution_distance(all.motion.histograms, all.reference.histograms);
-    judge(all);
+    for (std::size_t i = 0; i < all.distributions.size(); ++i) {
+        all.distributions[i].distance =
+            distribution_distance(all.motion.histograms[i], all.reference.histograms[i]);
+    }
+    all.regimes_agree = all.motion.regimes.commonest() == all.reference.regimes.commonest();
+    judge_by_metrics(all);
+    all.irregular_because = irregularity_of(all);
+    if (!all.irregular_because.empty()) judge_by_distributions(all, tolerances);
 }
 
 }  // namespace

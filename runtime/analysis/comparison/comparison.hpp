@@ -51,6 +51,17 @@ struct MetricComparison {
     std::optional<Verdict> verdict;      ///< nothing where there is no tolerance for the metric
 };
 
+/// The distributions of one quantity of both sides.
+struct DistributionComparison {
+    DistributionDistance distance;
+    /// Where falls are judged by their distributions: whether they are no further apart than
+    /// largest_distribution_distance beyond what chance gives.
+    std::optional<Verdict> verdict;
+};
+
+/// The share of the time by which distributions may differ beyond chance.
+inline constexpr double largest_distribution_distance = 0.2;
+
 /// Comparison of the first swings, and of the paths until the later turning point of the reference's. Members
 /// are nothing where one of the two has none.
 struct FirstSwingComparison {
@@ -74,7 +85,7 @@ struct Comparison {
     FallSet reference;
     PerMetric<MetricComparison> metrics;
     std::array<MetricComparison, quantile_percents.size()> quantiles;  ///< quantiles of the inclination (rad)
-    DistributionDistance distribution;
+    PerDistribution<DistributionComparison> distributions;
     FirstSwingComparison first_swing;
     /// At a quarter, a half, three quarters and the whole of the depth that all falls reach; none where
     /// either side has fewer than fewest_landings.
@@ -84,8 +95,12 @@ struct Comparison {
     bool regimes_agree = false;
     bool regime_is_uncertain =
         false;  ///< whether the reference's regime depends on its mesh or closure: then it is not judged
-    bool agrees = false;   ///< whether
-                           ///< all verdicts agree and, where the inclination is judged, the regimes
+    /// Why frequency, amplitude and regime of a single fall tell little here, so that `agrees` rests on the
+    /// distributions; empty where it rests on the metrics.
+    std::string irregular_because;
+    bool agrees_by_metrics =
+        false;            ///< whether all metrics agree and, where the inclination is judged, the regimes
+    bool agrees = false;  ///< by the metrics, or of irregular falls by descent speed, drift and distributions
     bool certain = false;  ///<
                            ///< whether `agrees` would be the same without the verdicts that are not certain
     std::vector<std::string> notes;  ///< limits of the comparison's validity, a sentence each

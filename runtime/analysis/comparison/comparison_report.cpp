@@ -104,20 +104,31 @@ std::string metric_row(const std::string& what, const MetricComparison& metric, 
                difference_text(metric, scale, relative), verdict_text(metric, scale));
 }
 
-std::string distribution_text(const Comparison& all) {
-    std::string text = "inclination (degrees)\n";
-    for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
-        text += metric_row(fmt::format("  {:.0f} % of the time below", quantile_percents[q]),
-                           all.quantiles[q], degrees);
-    }
-    const DistributionDistance& distance = all.distribution;
-    text += fmt::format("  distributions apart by {:.3f}", distance.distance);
+std::string distance_text(const char* title, const DistributionComparison& one) {
+    const DistributionDistance& distance = one.distance;
+    std::string text = fmt::format("  {} apart by {:.3f}", title, distance.distance);
     if (distance.chance) {
         text += fmt::format("; {} by chance {:.3f}, 95 % of them below {:.3f} (p = {:.3f})",
                             distance.by_falls ? "runs" : "swings", distance.chance->mean,
                             distance.chance->limit, distance.chance->probability);
     }
+    if (one.verdict) {
+        text += fmt::format(": {}{} (limit {:.3f})", one.verdict->agrees ? "agrees" : "differs",
+                            one.verdict->certain ? "" : "?", one.verdict->limit);
+    }
     return text + '\n';
+}
+
+std::string distribution_text(const Comparison& all) {
+    std::string text = "distributions over time; inclination in degrees\n";
+    for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
+        text += metric_row(fmt::format("  {:.0f} % of the time below", quantile_percents[q]),
+                           all.quantiles[q], degrees);
+    }
+    for (std::size_t i = 0; i < all.distributions.size(); ++i) {
+        text += distance_text(distribution_titles[i], all.distributions[i]);
+    }
+    return text;
 }
 
 std::string first_swing_text(const Comparison& all) {
@@ -134,6 +145,21 @@ std::string first_swing_text(const Comparison& all) {
                             *swing.distance_fallen);
     }
     return text;
+}
+
+json as_json(const DistributionComparison& one) {
+    const std::optional<Chance>& chance = one.distance.chance;
+    json result = {{"distance", one.distance.distance},
+                   {"distance_by_chance", chance ? json(chance->mean) : json()},
+                   {"distance_by_chance_limit", chance ? json(chance->limit) : json()},
+                   {"probability", chance ? json(chance->probability) : json()},
+                   {"chance_between", one.distance.by_falls ? "falls" : "swings"}};
+    if (one.verdict) {
+        result["limit"] = one.verdict->limit;
+        result["agrees"] = one.verdict->agrees;
+        result["certain"] = one.verdict->certain;
+    }
+    return result;
 }
 
 json as_json(const Landings& landings) {
@@ -165,9 +191,9 @@ std::string landing_text(const LandingComparison& landing) {
 }
 
 bool has_warnings(const Comparison& all) {
-    return std::any_of(all.metrics.begin(), all.metrics.end(), [](const MetricComparison& metric) {
-        return metric.verdict && !metric.verdict->certain;
-    });
+    const auto is_uncertain = [](const auto& one) { return one.verdict && !one.verdict->certain; };
+    return std::ranges::any_of(all.metrics, is_uncertain) ||
+           std::ranges::any_of(all.distributions, is_uncertain);
 }
 
 }  // namespace
@@ -194,20 +220,18 @@ json as_json(const Comparison& all) {
         quantiles.push_back(one);
     }
     const FirstSwingComparison& swing = all.first_swing;
-    const std::optional<Chance>& chance = all.distribution.chance;
+    json distributions;
+    for (std::size_t i = 0; i < all.distributions.size(); ++i) {
+        distributions[distribution_keys[i]] = as_json(all.distributions[i]);
+    }
+    distributions["inclination"]["quantiles"] = quantiles;
     json landings = json::array();
     for (const LandingComparison& landing : all.landings) landings.push_back(as_json(landing));
     return {{"window", {all.window.begin, all.window.end}},
             {"motion", as_json(all.motion, all.motion_body, all.motion_lengths)},
             {"reference", as_json(all.reference, all.reference_body, all.reference_lengths)},
             {"measures", measures},
-            {"inclination_distribution",
-             {{"quantiles", quantiles},
-              {"distance", all.distribution.distance},
-              {"distance_by_chance", chance ? json(chance->mean) : json()},
-              {"distance_by_chance_limit", chance ? json(chance->limit) : json()},
-              {"probability", chance ? json(chance->probability) : json()},
-              {"chance_between", all.distribution.by_falls ? "falls" : "swings"}}},
+            {"distributions", distributions},
             {"first_swing",
              {{"minimum_time", as_json(swing.minimum_time)},
               {"minimum_inclination", as_json(swing.minimum_inclination)},
@@ -220,6 +244,9 @@ json as_json(const Comparison& all) {
             {"judges_inclination", all.judges_inclination},
             {"regimes_agree", all.regimes_agree},
             {"regime_is_uncertain", all.regime_is_uncertain},
+            {"judged_by", all.irregular_because.empty() ? "metrics" : "distributions"},
+            {"irregular_because", all.irregular_because.empty() ? json() : json(all.irregular_because)},
+            {"agrees_by_metrics", all.agrees_by_metrics},
             {"agrees", all.agrees},
             {"certain", all.certain},
             {"notes", all.notes}};
@@ -244,6 +271,9 @@ std::string as_text(const Comparison& all) {
     for (const LandingComparison& landing : all.landings) text += landing_text(landing);
     for (const std::string& note : all.notes) text += "warning: " + note + '\n';
     text += all.agrees ? "the motion agrees with the reference" : "the motion differs from the reference";
+    if (!all.irregular_because.empty()) {
+        text += fmt::format(", judged by descent, drift and distributions, since {}", all.irregular_because);
+    }
     if (!all.certain) text += ", but this is uncertain";
     if (has_warnings(all))
         text +=

@@ -12,11 +12,11 @@ namespace {
 constexpr std::size_t fewest_pieces = 3;
 constexpr std::size_t enough_falls = 10;
 
-void add(InclinationHistogram& sum, const InclinationHistogram& one, double factor = 1.0) {
+void add(Histogram& sum, const Histogram& one, double factor = 1.0) {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * one[i];
 }
 
-double distance_of(const InclinationHistogram& a, const InclinationHistogram& b) {
+double distance_of(const Histogram& a, const Histogram& b) {
     const double all_a = std::accumulate(a.begin(), a.end(), 0.0);
     const double all_b = std::accumulate(b.begin(), b.end(), 0.0);
     double below_a = 0.0;
@@ -30,32 +30,32 @@ double distance_of(const InclinationHistogram& a, const InclinationHistogram& b)
     return distance;
 }
 
-InclinationHistogram sum_of(const std::vector<InclinationHistogram>& pieces) {
-    InclinationHistogram sum{};
-    for (const InclinationHistogram& piece : pieces) add(sum, piece);
+Histogram sum_of(const std::vector<Histogram>& pieces) {
+    Histogram sum{};
+    for (const Histogram& piece : pieces) add(sum, piece);
     return sum;
 }
 
-InclinationHistogram sum_of(const PieceHistograms& falls) {
-    InclinationHistogram sum{};
+Histogram sum_of(const PieceHistograms& falls) {
+    Histogram sum{};
     for (const auto& pieces : falls) add(sum, sum_of(pieces));
     return sum;
 }
 
-std::vector<const InclinationHistogram*> all_pieces(const PieceHistograms& falls) {
-    std::vector<const InclinationHistogram*> all;
+std::vector<const Histogram*> all_pieces(const PieceHistograms& falls) {
+    std::vector<const Histogram*> all;
     for (const auto& pieces : falls) {
-        for (const InclinationHistogram& piece : pieces) all.push_back(&piece);
+        for (const Histogram& piece : pieces) all.push_back(&piece);
     }
     return all;
 }
 
 std::vector<double> distances_between_falls(const PieceHistograms& falls) {
-    const InclinationHistogram all = sum_of(falls);
+    const Histogram all = sum_of(falls);
     std::vector<double> distances;
     for (const auto& pieces : falls) {
-        const InclinationHistogram one = sum_of(pieces);
-        InclinationHistogram others = all;
+        const Histogram one = sum_of(pieces);
+        Histogram others = all;
         add(others, one, -1.0);
         distances.push_back(distance_of(one, others));
     }
@@ -63,22 +63,22 @@ std::vector<double> distances_between_falls(const PieceHistograms& falls) {
 }
 
 std::vector<double> distances_of_draws(const PieceHistograms& motion, const PieceHistograms& reference) {
-    std::vector<const InclinationHistogram*> pool = all_pieces(motion);
-    const std::vector<const InclinationHistogram*> more = all_pieces(reference);
+    std::vector<const Histogram*> pool = all_pieces(motion);
+    const std::vector<const Histogram*> more = all_pieces(reference);
     const std::size_t drawn = std::min(pool.size(), more.size());
     if (drawn < fewest_pieces) return {};
     pool.insert(pool.end(), more.begin(), more.end());
-    InclinationHistogram all = sum_of(motion);
+    Histogram all = sum_of(motion);
     add(all, sum_of(reference));
     std::mt19937_64 generator(1);
     std::vector<double> distances;
     for (int draw = 0; draw < chance_draws; ++draw) {
-        InclinationHistogram one{};
+        Histogram one{};
         for (std::size_t i = 0; i < drawn; ++i) {
             std::swap(pool[i], pool[i + drawn_below(generator, pool.size() - i)]);
             add(one, *pool[i]);
         }
-        InclinationHistogram other = all;
+        Histogram other = all;
         add(other, one, -1.0);
         distances.push_back(distance_of(one, other));
     }

@@ -9,10 +9,10 @@
 namespace samara {
 
 /// Histograms of the pieces of some falls, fall by fall.
-using PieceHistograms = std::vector<std::vector<InclinationHistogram>>;
+using PieceHistograms = std::vector<std::vector<Histogram>>;
 
-/// Distance of two distributions of the inclination, and the distances that chance gives between falls of one
-/// distribution.
+/// Distance of two distributions over time, such as of the inclination, and the distances that chance gives
+/// between falls of one distribution.
 struct DistributionDistance {
     double distance = 0.0;         ///< largest difference of the distribution functions (Kolmogorov's)
     std::optional<Chance> chance;  ///< distances by chance; nothing where they are not known

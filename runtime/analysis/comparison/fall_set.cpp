@@ -128,7 +128,9 @@ class Gathering {
         for (std::size_t q = 0; q < quantile_percents.size(); ++q) {
             quantiles_[q].push_back(one.inclination_quantiles[q]);
         }
-        set_.histograms.push_back(std::move(one.histograms));
+        for (std::size_t i = 0; i < set_.histograms.size(); ++i) {
+            set_.histograms[i].push_back(std::move(one.histograms[i]));
+        }
         set_.pieces += one.pieces;
         add_power(set_.spectrum, one.spectrum);
     }

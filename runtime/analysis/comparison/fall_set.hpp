@@ -58,15 +58,15 @@ struct FallSet {
         0;  ///< number of different falls, to a ten-millionth of the displacement: repetitions do not count
     PerMetric<std::optional<Estimate>> metrics;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;
-    PieceHistograms histograms;                ///< histograms of all pieces
-    Spectrum spectrum;                         ///< mean
-    std::size_t pieces = 0;                    ///< number of independent pieces of all falls
-    RegimeCounts regimes;                      ///< regimes of the distinct falls
-    FirstSwing first_swing;                    ///< means over the falls that have its turning points
-    std::optional<Estimate> path_distance;     ///< m, from the path given, see measure_falls()
-    FallSeries example;                        ///< the first fall
-    std::vector<FallSeries> more;              ///< some of the others, for pictures
-    std::vector<Vector3d> mean_displacements;  ///< m, at the example's times
+    PerDistribution<PieceHistograms> histograms;  ///< histograms of all pieces
+    Spectrum spectrum;                            ///< mean
+    std::size_t pieces = 0;                       ///< number of independent pieces of all falls
+    RegimeCounts regimes;                         ///< regimes of the distinct falls
+    FirstSwing first_swing;                       ///< means over the falls that have its turning points
+    std::optional<Estimate> path_distance;        ///< m, from the path given, see measure_falls()
+    FallSeries example;                           ///< the first fall
+    std::vector<FallSeries> more;                 ///< some of the others, for pictures
+    std::vector<Vector3d> mean_displacements;     ///< m, at the example's times
     /// Passages of the distinct falls, level by level.
     std::vector<std::vector<Passage>> passages;
 };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "samara/core/base/numbers.hpp"
 #include "samara/motion/inclination.hpp"
 
 namespace samara {
@@ -56,14 +57,54 @@ Vector3d horizontal(const FallSeries& record, const Vector3d& vector) {
     return vector - vector.dot(record.down) * record.down;
 }
 
-InclinationHistogram histogram_of(const FallSeries& record, const Piece& piece) {
-    InclinationHistogram histogram{};
+std::size_t bin_at(double place, std::size_t bins) {
+    return std::min(static_cast<std::size_t>(std::max(0.0, place) * static_cast<double>(bins)), bins - 1);
+}
+
+/// Returns the histogram of a value between two frames, by its place from 0 to 1 among so many intervals.
+Histogram histogram_of(const FallSeries& record, const Piece& piece, std::size_t bins,
+                       const std::function<double(std::size_t, std::size_t)>& place) {
+    Histogram histogram{};
     for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
-        const double angle = 0.5 * (record.inclinations[i - 1] + record.inclinations[i]);
-        const auto bin = static_cast<std::size_t>(angle / (0.5 * std::numbers::pi) * inclination_bins);
-        histogram[std::min(bin, inclination_bins - 1)] += record.times[i] - record.times[i - 1];
+        histogram[bin_at(place(i - 1, i), bins)] += record.times[i] - record.times[i - 1];
     }
     return histogram;
+}
+
+Histogram inclinations_in(const FallSeries& record, const Piece& piece) {
+    return histogram_of(record, piece, inclination_bins, [&](std::size_t a, std::size_t b) {
+        return 0.5 * (record.inclinations[a] + record.inclinations[b]) / (0.5 * std::numbers::pi);
+    });
+}
+
+Histogram angular_speeds_in(const FallSeries& record, const Piece& piece) {
+    constexpr double lowest = -3.0;
+    constexpr double decades = 8.0;
+    return histogram_of(record, piece, histogram_bins, [&](std::size_t a, std::size_t b) {
+        const double square = std::max(1e-12, 0.5 * (record.squared_spins[a] + record.squared_spins[b]));
+        return (0.5 * std::log10(square) - lowest) / decades;
+    });
+}
+
+/// Returns the piece's duration in the interval of its mode. A piece from one minimum of the inclination to
+/// the next turns over where the axis points the other way in the end.
+Histogram mode_of(const FallSeries& record, const Piece& piece) {
+    constexpr double still_range = 5.0 * degree;
+    const auto first = record.inclinations.begin();
+    const auto [lowest, highest] = std::minmax_element(first + static_cast<std::ptrdiff_t>(piece.begin),
+                                                       first + static_cast<std::ptrdiff_t>(piece.end));
+    const double before = record.axes[piece.begin].dot(record.down);
+    const double after = record.axes[piece.end - 1].dot(record.down);
+    Histogram histogram{};
+    const std::size_t mode = before * after < 0.0 ? 2 : *highest - *lowest < still_range ? 0 : 1;
+    histogram[mode] = record.times[piece.end - 1] - record.times[piece.begin];
+    return histogram;
+}
+
+void add_histograms(const FallSeries& record, const Piece& piece, FallMetrics& metrics) {
+    metrics.histograms[0].push_back(inclinations_in(record, piece));
+    metrics.histograms[1].push_back(angular_speeds_in(record, piece));
+    metrics.histograms[2].push_back(mode_of(record, piece));
 }
 
 /// The record with one stretch of neighbouring pieces left out at a time.
@@ -275,8 +316,8 @@ FallMetrics fall_metrics(const FallSeries& record, double segment) {
     const Jackknife jackknife(record, pieces);
     FallMetrics result;
     result.pieces = pieces.pieces.size();
-    for (const Piece& piece : pieces.pieces) result.histograms.push_back(histogram_of(record, piece));
-    if (pieces.pieces.empty()) result.histograms.push_back(histogram_of(record, window_frames(record)));
+    for (const Piece& piece : pieces.pieces) add_histograms(record, piece, result);
+    if (pieces.pieces.empty()) add_histograms(record, window_frames(record), result);
     result.inclination_quantiles = quantiles_of(record, jackknife);
     result.spectrum = swing_spectrum(record, segment);
 

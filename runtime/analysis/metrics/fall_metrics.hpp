@@ -12,10 +12,25 @@ namespace samara {
 /// The percentages of the quantiles by which distributions of the inclination are compared.
 inline constexpr std::array<double, 5> quantile_percents = {5.0, 25.0, 50.0, 75.0, 95.0};
 
-/// Number of equal intervals of the inclination, from 0 to pi/2, in an InclinationHistogram.
+/// The quantities whose distributions over time are compared where falls are irregular: the inclination; the
+/// angular speed; and the mode of each piece of a fall, which is still, swings or turns over.
+enum class Distribution { inclination, angular_speed, mode };
+/// One value for each of them.
+template <typename Value>
+using PerDistribution = std::array<Value, 3>;
+/// Their names in JSON, and as text.
+inline constexpr PerDistribution<const char*> distribution_keys = {"inclination", "angular_speed", "mode"};
+inline constexpr PerDistribution<const char*> distribution_titles = {"inclination", "angular speed",
+                                                                     "still, swinging, turning over"};
+
+/// Number of equal intervals of the inclination, from 0 to pi/2, in a Histogram.
 inline constexpr std::size_t inclination_bins = 90;
-/// The time (s), or share of it, that the inclination spends in each of inclination_bins intervals.
-using InclinationHistogram = std::array<double, inclination_bins>;
+/// Number of intervals in a Histogram: those of the angular speed, even in its logarithm from 1e-3 to 1e5
+/// rad/s.
+inline constexpr std::size_t histogram_bins = 180;
+/// The time (s), or share of it, that a quantity spends in each interval. The inclination uses the first
+/// inclination_bins, the mode the first three.
+using Histogram = std::array<double, histogram_bins>;
 
 /// Metrics of one fall over its window, with errors estimated from the fall's own swings: by the jackknife
 /// with a third of the swings left out at a time, 16 at most, since swings that follow one another are alike.
@@ -27,9 +42,9 @@ using InclinationHistogram = std::array<double, inclination_bins>;
 struct FallMetrics {
     PerMetric<std::optional<Estimate>> metrics;
     std::array<Estimate, quantile_percents.size()> inclination_quantiles;  ///< rad
-    std::vector<InclinationHistogram> histograms;  ///< s in each interval, one for each piece of the window
-    Spectrum spectrum;                             ///< swing_spectrum() of the window
-    std::size_t pieces = 0;                        ///< independent ones, see pieces_of()
+    PerDistribution<std::vector<Histogram>> histograms;  ///< s in each interval, for each piece of the window
+    Spectrum spectrum;                                   ///< swing_spectrum() of the window
+    std::size_t pieces = 0;                              ///< independent ones, see pieces_of()
 };
 
 /// Returns whether metrics of a subject are defined for a body.

@@ -60,6 +60,8 @@ TEST_F(CompareCommand, ReportsMetricsWithErrorsAndVerdictsAsTextAndJson) {
 
     const nlohmann::json json = run({"motion.h5", "reference.h5", "--json"}).json();
     EXPECT_EQ(json["agrees"], true);
+    EXPECT_EQ(json["judged_by"], "metrics");
+    EXPECT_EQ(json["agrees_by_metrics"], true);
     EXPECT_EQ(json["motion"]["file"], "motion.h5");
     EXPECT_EQ(json["motion"]["falls"], 2);
     EXPECT_EQ(json["reference"]["body"], "reference body");
@@ -73,7 +75,7 @@ TEST_F(CompareCommand, ReportsMetricsWithErrorsAndVerdictsAsTextAndJson) {
     }
     EXPECT_NEAR(json["measures"]["descent_speed"]["limit"].get<double>(),
                 0.1 * json["measures"]["descent_speed"]["reference"]["value"].get<double>(), 1e-12);
-    EXPECT_EQ(json["inclination_distribution"]["quantiles"].size(), 5U);
+    EXPECT_EQ(json["distributions"]["inclination"]["quantiles"].size(), 5U);
     EXPECT_GT(json["first_swing"]["way_fallen"].get<double>(), 0.0);
 }
 

@@ -11,15 +11,15 @@ namespace {
 using Falls = PieceHistograms;
 
 /// A piece that spends its time (s) in the interval numbered `bin`.
-InclinationHistogram time_in(std::size_t bin, double seconds = 1.0) {
-    InclinationHistogram histogram{};
+Histogram time_in(std::size_t bin, double seconds = 1.0) {
+    Histogram histogram{};
     histogram[bin] = seconds;
     return histogram;
 }
 
 /// One fall whose pieces each spend a second about an interval drawn evenly from `low` to `high`.
-std::vector<InclinationHistogram> drawn_pieces(std::mt19937& generator, int pieces, int low, int high) {
-    std::vector<InclinationHistogram> fall;
+std::vector<Histogram> drawn_pieces(std::mt19937& generator, int pieces, int low, int high) {
+    std::vector<Histogram> fall;
     for (int i = 0; i < pieces; ++i) {
         const auto size = static_cast<unsigned>(high - low);
         fall.push_back(time_in(static_cast<std::size_t>(low) + generator() % size));
