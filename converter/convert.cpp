@@ -118,6 +118,7 @@ Conversion convert_folder(const std::filesystem::path& folder,
     Conversion conversion;
     conversion.body = read_body_file(folder / "body.body.h5");
     require_plan_of_body(folder, plan, conversion.body);
+    conversion.body.recommended.reset();  // what was judged by other tables
     FolderReduction reduction = reduce_folder(folder, plan, progress);
     bring_to_required(conversion.body.symmetry, plan, reduction.cases);
     try {
@@ -135,6 +136,7 @@ Conversion convert_folder(const std::filesystem::path& folder,
     if (falls.empty()) return conversion;
     conversion.identification = identify_motion(conversion.body, falls, {}, identifying);
     conversion.body.dynamic = conversion.identification->coefficients;
+    conversion.body.recommended = judge_models_by(conversion.body, falls).recommended();
     return conversion;
 }
 

@@ -54,10 +54,11 @@ nlohmann::json identify(const IdentifyOptions& options, bool leaves_stretch_out,
     Progress progress("identifying", "%");
     LeftOutOfFalls left_out{.terms = words_of(options.without)};
     if (leaves_stretch_out) left_out.stretch = options.without_stretch;
+    const std::vector<FallRecord> falls = records_of(options.falls);
     const Identification identification =
-        identify_motion(body, records_of(options.falls), left_out,
-                        [&](double done) { progress.update(100.0 * done, 100.0); });
+        identify_motion(body, falls, left_out, [&](double done) { progress.update(100.0 * done, 100.0); });
     body.dynamic = identification.coefficients;
+    body.recommended = judge_models_by(body, falls).recommended();
     nlohmann::json json = identification_as_json(identification);
     json["held"] = nlohmann::json::array();
     if (!quiet) print_result("{}", identification_as_text(identification));

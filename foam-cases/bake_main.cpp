@@ -267,8 +267,8 @@ int run(int argc, const char* const* argv) {
                      "validate, except for kEpsilon with loads by kEpsilon. none: no falls; the body gets "
                      "the default dynamic coefficients");
     arguments.option("--fall-step", options.fall_step,
-                     "time step of the falls relative to the automatic step; use 0.5 for a fall that does "
-                     "not conserve momentum",
+                     "time step of the falls relative to the automatic step; a fall that does not conserve "
+                     "momentum is solved again with half of it",
                      0.05, 4.0);
     arguments.choice(
         "--inflow", options.inflow, {"still", "paper"},

@@ -1,6 +1,8 @@
 // The program samara-plan: plans the bake of a scene.
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/analysis/advice/model_advice.hpp"
+#include "samara/analysis/advice/model_judgement.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
@@ -96,6 +99,86 @@ nlohmann::json plan_body(const BakeRequest& request, const BakePreparation& prep
     return json;
 }
 
+/// What a body of the scene is simulated by as its file is, and how far such bodies are off.
+struct Outlook {
+    std::string models;
+    std::string quality;  ///< of the tables, or "surface"; empty where the loads are of neither
+    std::string origin;   ///< what the models were judged by; empty where the file recommends none
+    std::optional<FallErrors> errors;
+};
+
+Outlook outlook_of(const SceneBody& scene_body, const Body& body) {
+    SceneBody chosen = scene_body;
+    choose_open_models(body, scene_body.open, chosen);
+    if (scene_body.open.loads && chosen.loads == Loads::table && !body.tables) {
+        chosen.loads = Loads::surface;  // which a simulation makes of any shape
+        if (scene_body.open.turbulence) chosen.turbulence = Turbulence::none;
+    }
+    if (chosen.loads == Loads::table && !body.tables) {
+        return {.models = "loads of tables, which its file does not hold",
+                .quality = {},
+                .origin = {},
+                .errors = {}};
+    }
+    Outlook outlook{.models = in_words({chosen.loads, chosen.patches, chosen.turbulence}),
+                    .quality = {},
+                    .origin = {},
+                    .errors = {}};
+    if (chosen.loads == Loads::surface) outlook.quality = "surface";
+    if (chosen.loads == Loads::table && body.tables) outlook.quality = body.tables->quality;
+    if (scene_body.open.loads && body.recommended) outlook.origin = body.recommended->origin;
+    if (outlook.origin.empty()) outlook.errors = errors_on_held_out_falls(outlook.quality);
+    return outlook;
+}
+
+std::string in_words(const FallErrors& errors) {
+    return fmt::format("off by {:.0f} % of the descent and {:.0f} % of the worst metric on held-out falls",
+                       100.0 * errors.descent, 100.0 * errors.worst_metric);
+}
+
+/// Returns the lines that say what to expect of a body, and what would be better.
+std::string as_text(const std::string& name, const Outlook& outlook, const BakePreparation& preparation,
+                    const std::string& quality) {
+    std::string text = fmt::format("  {}: {}", name, outlook.models);
+    if (!outlook.origin.empty()) text += fmt::format(", as its file recommends ({})", outlook.origin);
+    if (outlook.errors) text += "; such bodies are " + in_words(*outlook.errors);
+    text += '\n';
+    const auto after = errors_on_held_out_falls(quality);
+    const bool is_better = after && (!outlook.errors || after->worst_metric < outlook.errors->worst_metric) &&
+                           outlook.quality != "high";
+    if (outlook.origin.empty() && is_better && preparation.plan) {
+        text += fmt::format("    a {} bake costs {:.0f} CPU s in its first round; then they are {}\n",
+                            quality, preparation.plan->cpu_seconds, in_words(*after));
+    }
+    return text;
+}
+
+nlohmann::json as_json(const std::string& name, const Outlook& outlook) {
+    nlohmann::json json = {
+        {"name", name},
+        {"models", outlook.models},
+        {"origin", outlook.origin.empty() ? nlohmann::json() : nlohmann::json(outlook.origin)},
+        {"descent_error", nullptr},
+        {"worst_metric_error", nullptr}};
+    if (!outlook.errors) return json;
+    json["descent_error"] = outlook.errors->descent;
+    json["worst_metric_error"] = outlook.errors->worst_metric;
+    return json;
+}
+
+/// Returns the command that follows: the bake, where a body uses tables and none were given, or the
+/// simulation.
+std::string next_command(const PlanOptions& options, const nlohmann::json& bodies) {
+    const bool uses_tables = std::any_of(bodies.begin(), bodies.end(),
+                                         [](const nlohmann::json& body) { return body.contains("regime"); });
+    if (!options.bodies.empty()) {
+        return fmt::format("samara simulate {} --bodies {} -o motion.h5", options.scene, options.bodies);
+    }
+    if (!uses_tables) return fmt::format("samara simulate {} -o motion.h5", options.scene);
+    return fmt::format("samara bake {} -o bodies{}", options.scene,
+                       options.quality == usual_quality ? "" : " --quality " + options.quality);
+}
+
 /// Returns the body for the model advice: the baked one where there is one.
 LoadedBody as_baked(const BakeRequest& request, const BakePreparation& preparation, bool has_bodies) {
     if (has_bodies && std::filesystem::exists(request.output)) return {read_body_file(request.output), ""};
@@ -117,7 +200,7 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
                         "reports the cost of baking a shape in all directions",
                         options.scene));
     }
-    const Scene scene = read_scene_file(options.scene);
+    Scene scene = read_scene_file(options.scene);
     if (!options.picture.empty()) {
         require_picture_format(options.picture);
         if (scene.bodies.size() != 1) {
@@ -131,7 +214,8 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
     SceneBakeOptions wanted;
     wanted.quality = with_loads_by(usual_loads_closure(options.quality), bake_quality(options.quality));
     wanted.tolerance = options.tolerance;
-    nlohmann::json result = {{"bodies", nlohmann::json::array()}};
+    nlohmann::json result = {{"bodies", nlohmann::json::array()}, {"outlook", nlohmann::json::array()}};
+    std::string outlooks;
     nlohmann::json picture;
     std::vector<LoadedBody> loaded;
     BodyNotes notes("samara plan");
@@ -140,13 +224,20 @@ nlohmann::json run(const PlanOptions& options, const Arguments& arguments) {
         note_warnings(notes, request, preparation);
         result["bodies"].push_back(plan_body(request, preparation, options, arguments.json(), picture));
         loaded.push_back(as_baked(request, preparation, !options.bodies.empty()));
-        const SceneBody& body = scene.bodies[loaded.size() - 1];
+        SceneBody& body = scene.bodies[loaded.size() - 1];
+        const Outlook outlook = outlook_of(body, *loaded.back().body);
+        outlooks += as_text(body.name, outlook, preparation, options.quality);
+        result["outlook"].push_back(as_json(body.name, outlook));
+        if (loaded.back().body->recommended) choose_open_models(*loaded.back().body, body.open, body);
         const DensityWarning density = density_warning(body, *loaded.back().body, scene.fluid);
         notes.add("density", body.name, density.ratio, density.text);
     }
     notes.print();
     const ModelAdvice advice = advised(scene, loaded, options.tolerance);
-    if (!arguments.json()) print_result("{}", as_text(advice));
+    if (!arguments.json()) {
+        print_result("{}\nwhat the bodies are simulated by now\n{}next: {}\n", as_text(advice), outlooks,
+                     next_command(options, result["bodies"]));
+    }
     result["models"] = as_json(advice);
     if (!options.picture.empty() && !picture.is_null()) draw_picture(options.picture, picture);
     return result;

@@ -188,12 +188,12 @@ void set_wakes(const ImmersedBody& body, double time_step, std::vector<BodyState
 }
 
 // Prepares a fall. `settling_length`: that of the coefficients to be identified; by default the body's own.
-ReadyFall ready(const Body& body, const FallRecord& record,
+ReadyFall ready(const Body& body, const FallRecord& record, const RecommendedModels& models = {},
                 const std::optional<double>& settling_length = {}) {
     if (record.samples.empty()) throw too_short(record);
     require_even_steps(record);
-    ReadyFall fall{record, falling_body(body, record.fall), states_of(record), gravity_of(record.fall), 1,
-                   {}};
+    ReadyFall fall{
+        record, falling_body(body, record.fall, models), states_of(record), gravity_of(record.fall), 1, {}};
     const double step = record.samples.front().time;
     fall.stride = static_cast<std::size_t>(std::max(1.0, std::round(simulated_step / step)));
     if (settling_length) fall.body.dynamic.settling_length = *settling_length;
@@ -399,9 +399,17 @@ std::string origin_of(const std::vector<FallRecord>& falls, double error) {
 
 }  // namespace
 
-SimulatedFall simulate_fall(const Body& body, const FallRecord& record) {
-    const ReadyFall fall = ready(body, record);
+SimulatedFall simulate_fall(const Body& body, const FallRecord& record, const RecommendedModels& models) {
+    const ReadyFall fall = ready(body, record, models);
     return simulated_fall(body, fall, fall.body.dynamic);
+}
+
+ModelJudgement judge_models_by(const Body& body, const std::vector<FallRecord>& falls) {
+    std::vector<Measures> solved;
+    for (const FallRecord& record : falls) solved.push_back(ready(body, record).measures);
+    return judge_models(body, std::move(solved), [&](const RecommendedModels& models, std::size_t i) {
+        return simulate_fall(body, falls[i], models).simulated;
+    });
 }
 
 FallMotions fall_motions(const Body& body, const FallRecord& record) {
@@ -432,7 +440,7 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
     falls.reserve(records.size());
     const MotionParameters parameters(body, left_out.terms);
     for (const FallRecord& record : records) {
-        falls.push_back(ready(body, record, parameters.settling_length()));
+        falls.push_back(ready(body, record, {}, parameters.settling_length()));
     }
     std::vector<Segment> segments = segments_of(falls);
     if (left_out.stretch) segments = without_stretch(std::move(segments), *left_out.stretch);

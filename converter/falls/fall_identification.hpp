@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "converter/falls/fall_record.hpp"
+#include "samara/analysis/advice/model_judgement.hpp"
 #include "samara/core/body/body.hpp"
 #include "samara/motion/measures.hpp"
 
@@ -61,9 +62,13 @@ Identification identify_motion(const Body& body, const std::vector<FallRecord>& 
                                const LeftOutOfFalls& left_out = {},
                                const std::function<void(double)>& progress = {});
 
-/// Simulates a solved fall by the runtime with the body's own coefficients, and returns the metrics of both.
-/// Throws Error as identify_motion does, but takes falls of any length.
-SimulatedFall simulate_fall(const Body& body, const FallRecord& record);
+/// Simulates a solved fall by the runtime with the body's own coefficients and the models, and returns the
+/// metrics of both. Throws Error as identify_motion does, but takes falls of any length.
+SimulatedFall simulate_fall(const Body& body, const FallRecord& record, const RecommendedModels& models = {});
+
+/// Judges the models that the body may be simulated with by its falls, of which there is at least one. Those
+/// of the tables were fitted to falls from which coefficients were identified; those of the surface were not.
+ModelJudgement judge_models_by(const Body& body, const std::vector<FallRecord>& falls);
 
 /// Returns the motions of simulate_fall() with the body's surface, rotated so that gravity points along -z.
 /// Throws Error as simulate_fall() does.

@@ -164,7 +164,7 @@ FallBalance balance_of(const FallRecord& record) {
                   std::max({moment, gyroscopic, of_buoyancies, least_arm * least_arm * force_scale}))};
 }
 
-ImmersedBody falling_body(const Body& body, const FreeFall& fall) {
+ImmersedBody falling_body(const Body& body, const FreeFall& fall, const RecommendedModels& models) {
     const double length = reference_length(body.moments.surface_area);
     if (std::abs(length - fall.length) > 1e-6 * length) {
         throw Error(
@@ -178,6 +178,8 @@ ImmersedBody falling_body(const Body& body, const FreeFall& fall) {
     physics.mass.center_of_mass = body.moments.centroid + length * (fall.axes * fall.center_of_mass);
     physics.mass.inertia =
         mass_unit * length * length * (fall.axes * fall.inertia() * fall.axes.transpose()).eval();
+    physics.loads = models.loads;
+    physics.patches = models.patches;
     physics.turbulence = Turbulence::none;
     Fluid fluid;
     fluid.density = fall.fluid_density;

@@ -56,9 +56,10 @@ inline constexpr FallBalance largest_good_balance = {0.05, 0.15};
 /// Whether either residual exceeds largest_good_balance.
 bool is_unbalanced(const FallBalance& balance);
 
-/// Returns the body of a solved fall as the runtime simulates it: with loads by its tables and its dynamic
-/// coefficients, or the default ones. Throws Error where the fall is of a body of another size.
-ImmersedBody falling_body(const Body& body, const FreeFall& fall);
+/// Returns the body of a solved fall as the runtime simulates it with the models, but without noise: by
+/// default with loads by its tables. Its dynamic coefficients are its own, or the default ones. Throws Error
+/// where the fall is of a body of another size.
+ImmersedBody falling_body(const Body& body, const FreeFall& fall, const RecommendedModels& models = {});
 
 /// Returns the fall's states in SI units, the first at its start with the velocities of fall.json. The
 /// world's axes are the body's (shape) axes at the start, and its origin the centre of mass there.

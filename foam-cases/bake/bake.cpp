@@ -20,6 +20,7 @@
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_folder.hpp"
 #include "foam-cases/farm/guarded_process.hpp"
+#include "foam-cases/farm/unbalanced_falls.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
@@ -144,7 +145,7 @@ class CaseSolving {
         const double spent_before = cpu_seconds_of(cpu_account(folder_, plan));
         watch_.cpu_lap();
         result_.reused += solved_before - std::min(solved_before, solved_);
-        const std::vector<LeftOutCase> left_out = solve_cases(folder_, plan, farm_, foam_cases_);
+        const std::vector<LeftOutCase> left_out = solve_until_balanced(folder_, plan, farm_, foam_cases_);
         solved_ = plan.cases.size() + plan.falls.size() - left_out.size();
         result_.left_out = left_out;
         records_ = cpu_account(folder_, plan);
@@ -366,6 +367,20 @@ void add_kirchhoff_tensor(Body& body, const fs::path& shape, const fs::path& ear
             fmt::format("{}: has no Kirchhoff tensor; compute it with 'samara kirchhoff'", body.name));
 }
 
+namespace {
+
+/// Returns the physics that a scene's body is simulated with where it is not baked: a body file that
+/// recommends the loads of its surface needs no tables.
+BodyPhysics as_simulated(const SceneBody& scene_body) {
+    BodyPhysics physics = scene_body;
+    if (!scene_body.open.loads || !is_body_file_name(scene_body.shape)) return physics;
+    const Body body = read_body_file(scene_body.shape);
+    if (body.recommended) choose_open_models(body, scene_body.open, physics);
+    return physics;
+}
+
+}  // namespace
+
 std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::filesystem::path& folder,
                                             const SceneBakeOptions& options) {
     std::vector<BakeRequest> requests;
@@ -381,7 +396,8 @@ std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::files
         request.gravity = scene.gravity.norm();
         request.quality = options.quality;
         request.inflow = options.inflow;
-        request.tables = body.loads == Loads::table || body.turbulence == Turbulence::table;
+        const BodyPhysics physics = as_simulated(body);
+        request.tables = physics.loads == Loads::table || physics.turbulence == Turbulence::table;
         if (request.tables) {
             request.goal = SceneGoal{.scene = scene,
                                      .body = i,

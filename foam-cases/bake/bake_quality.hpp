@@ -39,8 +39,8 @@ struct FallErrors {
     double worst_metric;  ///< of descent, frequency, amplitude and rms angular speed; another regime counts 1
 };
 
-/// Returns the errors of bakes of a quality on the nine held-out falls (docs/explanation/accuracy.md);
-/// nothing of qualities that were not flown there.
+/// Returns the errors of bakes of a quality on the nine held-out falls (docs/explanation/accuracy.md), or, of
+/// the quality "surface", of bodies without a bake; nothing of qualities that were not flown there.
 std::optional<FallErrors> errors_on_held_out_falls(const std::string& quality);
 
 /// The settings of --quality. All directions are solved on every mesh but the last and a share of them on the

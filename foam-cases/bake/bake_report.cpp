@@ -12,6 +12,7 @@
 #include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
 #include "samara/analysis/advice/input_warnings.hpp"
+#include "samara/analysis/advice/model_judgement.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/formats/json_text.hpp"
@@ -225,6 +226,9 @@ void print_result(const BakeRequest& request, const BakeResult& result) {
     if (result.conversion->identification) {
         print_result("{}", identification_as_text(*result.conversion->identification));
     }
+    if (const auto& models = result.conversion->body.recommended) {
+        print_result("simulated by default with {} ({})\n", in_words(*models), models->origin);
+    }
     print_result("{}", account_as_text(result.account));
     print_result(
         "surface {:.1f} s, Kirchhoff tensor {:.1f} s, cases {:.1f} s ({:.0f} CPU s in total), tables {:.1f} "
@@ -264,9 +268,9 @@ void warn_of_unbalanced_falls(const BakeRequest& request, const BakeResult& resu
         if (!is_unbalanced(fall.balance)) continue;
         print_note(
             "samara bake: warning: {}: {} does not conserve momentum (force off by {:.0f} %, moment by "
-            "{:.0f} %), and its coefficients may be wrong; halve its step with --fall-step {:.3g}\n",
+            "{:.0f} %) at half the step either, and its coefficients may be wrong; try --fall-step {:.3g}\n",
             request.output.string(), fall.name, 100.0 * fall.balance.force, 100.0 * fall.balance.moment,
-            0.5 * request.quality.fall_step);
+            0.25 * request.quality.fall_step);
     }
 }
 

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samara/analysis/advice/input_warnings.hpp"
+#include "samara/analysis/advice/model_judgement.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/table_errors_report.hpp"
@@ -257,6 +258,13 @@ nlohmann::json tables_as_json(const LoadTables& tables) {
     return result;
 }
 
+nlohmann::json recommended_as_json(const RecommendedModels& models) {
+    return {{"loads", name_of(models.loads)},
+            {"patches", models.patches},
+            {"turbulence", name_of(models.turbulence)},
+            {"origin", models.origin}};
+}
+
 nlohmann::json mass_as_json(const Body& body) {
     const MassProperties mass = mass_properties(body, *body.mass);
     return {{"density", or_null(body.mass->density)},
@@ -266,6 +274,11 @@ nlohmann::json mass_as_json(const Body& body) {
 }
 
 }  // namespace
+
+void print_recommended(const Body& body) {
+    const RecommendedModels& models = *body.recommended;
+    print_row("default models", "{} ({})", in_words(models), models.origin);
+}
 
 void print_mass(const Body& body) {
     const MassProperties mass = mass_properties(body, *body.mass);
@@ -289,6 +302,7 @@ void print_body(const Body& body) {
     print_row("principal extents", "{} m", in_words(principal_extents(body)));
     print_row("symmetry", "{}", in_words(body.symmetry));
     if (body.mass) print_mass(body);
+    if (body.recommended) print_recommended(body);
     if (body.kirchhoff) {
         print_kirchhoff(*body.kirchhoff);
     } else {
@@ -321,6 +335,7 @@ nlohmann::json body_as_json(const Body& body) {
         {"principal_extents", as_json(principal_extents(body))},
         {"symmetry", {{"kind", name_of(body.symmetry.type)}, {"elements", body.symmetry.elements.size()}}},
         {"mass", nullptr},
+        {"recommended", nullptr},
         {"kirchhoff", nullptr},
         {"surface_loads", nullptr},
         {"tables", nullptr},
@@ -328,6 +343,7 @@ nlohmann::json body_as_json(const Body& body) {
     };
     if (body.symmetry.type == Symmetry::Type::axial) result["symmetry"]["axis"] = as_json(body.symmetry.axis);
     if (body.mass) result["mass"] = mass_as_json(body);
+    if (body.recommended) result["recommended"] = recommended_as_json(*body.recommended);
     if (body.kirchhoff) {
         result["kirchhoff"] = {{"added_mass", rows_as_json(body.kirchhoff->matrix)},
                                {"error_estimate", body.kirchhoff->error_estimate},

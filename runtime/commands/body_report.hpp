@@ -10,6 +10,10 @@ namespace samara {
 /// mass.
 void print_mass(const Body& body);
 
+/// Prints the models of a body's file, which scenes use by default, on standard output. The body must have
+/// them.
+void print_recommended(const Body& body);
+
 /// Prints a description of a body on standard output.
 void print_body(const Body& body);
 

@@ -10,6 +10,9 @@ int kirchhoff_command(int argc, const char* const* argv);
 /// Runs samara mass: the mass of a body where a scene gives none.
 int mass_command(int argc, const char* const* argv);
 
+/// Runs samara recommend: the models of a body where a scene gives none.
+int recommend_command(int argc, const char* const* argv);
+
 /// Runs samara simulate: a scene's motion.
 int simulate_command(int argc, const char* const* argv);
 

@@ -31,6 +31,8 @@ constexpr Command commands[] = {
     {"kirchhoff", "body or shape -> added mass (Kirchhoff tensor) in an unbounded fluid",
      samara::kirchhoff_command},
     {"mass", "sets the default mass in a body file", samara::mass_command},
+    {"recommend", "sets the default models in a body file, as given or judged by a fall",
+     samara::recommend_command},
     {"plan", "scene -> the CFD cases it needs, and their cost", nullptr},
     {"bake", "OpenFOAM cases around a body -> load and turbulence tables", nullptr},
     {"convert", "solved cases -> tables in the body file", nullptr},

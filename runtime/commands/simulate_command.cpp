@@ -90,7 +90,7 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
         notes.add(units, body.name, 0.0, units);
         notes.add("shape", body.name, 0.0,
                   is_body_file_name(body.shape) ? "" : shape_warning(*loaded[i].body));
-        if (body.loads == Loads::surface && body.loads_by_default) {
+        if (body.loads == Loads::surface && body.open.loads && !loaded[i].body->tables) {
             notes.add("surface", body.name, 0.0,
                       "has no tables; its loads are estimated from potential flow "
                       "(docs/explanation/loads-without-a-bake.md); 'samara bake' computes tables");

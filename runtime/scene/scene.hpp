@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/body/recommended_models.hpp"
 #include "samara/core/physics/body_physics.hpp"
 #include "samara/core/physics/fluid.hpp"
 #include "samara/core/physics/obstacle.hpp"
@@ -26,11 +27,7 @@ struct SceneBody : BodyPhysics, Release {
         display;  ///< mesh for exports, in metres and shape axes; null: its surface
     bool models_auto =
         false;  ///< whether the model advice chooses the models (docs/explanation/what-a-scene-needs.md)
-    /// Whether the scene leaves the loads to what the body's file holds: tables, or else the loads of its
-    /// surface.
-    bool loads_by_default = false;
-    /// Whether the scene leaves the turbulence to what the body's file holds: tables, or else still fluid.
-    bool turbulence_by_default = false;
+    OpenModels open;  ///< the models that the scene leaves to the body's file: choose_open_models()
 };
 
 /// A scene file, checked: every number is finite and in its range.

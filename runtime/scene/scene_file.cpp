@@ -107,7 +107,7 @@ void read_models(TomlTable& table, SceneBody& body) {
                                 {"table", Loads::table},
                                 {"surface", Loads::surface}},
                                body.loads);
-    body.loads_by_default = table.node("loads") == nullptr;
+    body.open.loads = table.node("loads") == nullptr;
     assign(body.added_mass, table.boolean("added_mass"));
     body.dynamic = choice<Dynamic>(
         table, "dynamic_coefficients",
@@ -119,6 +119,7 @@ void read_models(TomlTable& table, SceneBody& body) {
             throw table.error("patches", "applies to loads, but loads = \"none\"; remove it or change loads");
         body.patches = static_cast<int>(*patches);
     }
+    body.open.patches = table.node("patches") == nullptr;
     body.models_auto = choice<bool>(table, "models", {{"auto", true}, {"given", false}}, false);
     if (!body.models_auto) return;
     for (const char* key :
@@ -155,7 +156,7 @@ void read_turbulence(TomlTable& table, SceneBody& body) {
                                       {"seen-fluid", Langevin::sampled_turbulence},
                                       {"body-velocity", Langevin::body_velocity}},
                                      body.langevin);
-    body.turbulence_by_default = table.node("turbulence") == nullptr;
+    body.open.turbulence = table.node("turbulence") == nullptr;
     const auto energy = table.number("turbulent_kinetic_energy");
     const auto dissipation = table.number("dissipation_rate");
     const bool constant = body.turbulence == Turbulence::constant;

@@ -33,11 +33,9 @@ std::vector<double> frame_times(const Scene& scene) {
 }
 
 std::string models_of(const SceneBody& scene_body, const ImmersedBody& body) {
-    constexpr const char* loads[] = {"none", "coefficients", "table", "surface"};
-    constexpr const char* turbulence[] = {"none", "constant", "table"};
     constexpr const char* langevin[] = {"seen-fluid", "body-velocity", "wake"};
-    std::string text = fmt::format("loads {}; turbulence {}", loads[static_cast<int>(scene_body.loads)],
-                                   turbulence[static_cast<int>(scene_body.turbulence)]);
+    std::string text =
+        fmt::format("loads {}; turbulence {}", name_of(scene_body.loads), name_of(scene_body.turbulence));
     if (scene_body.turbulence != Turbulence::none) {
         text += fmt::format(" ({})", langevin[static_cast<int>(body.constants.langevin)]);
     }

@@ -13,15 +13,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array loads_words = {"none", "coefficients", "table", "surface"};
-constexpr std::array turbulence_words = {"none", "constant", "table"};
 constexpr std::array dynamic_words = {"body", "default", "none"};
 
 json as_json(const ModelSet& models) {
-    json result = {{"loads", loads_words[static_cast<std::size_t>(models.loads)]},
+    json result = {{"loads", name_of(models.loads)},
                    {"added_mass", models.added_mass},
                    {"dynamic_coefficients", dynamic_words[static_cast<std::size_t>(models.dynamic)]},
-                   {"turbulence", turbulence_words[static_cast<std::size_t>(models.turbulence)]}};
+                   {"turbulence", name_of(models.turbulence)}};
     if (models.loads == Loads::coefficients) result["drag_coefficient"] = models.drag_coefficient;
     if (models.table_reynolds_number) result["table_reynolds_number"] = *models.table_reynolds_number;
     if (models.turbulence == Turbulence::constant) {

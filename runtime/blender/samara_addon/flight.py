@@ -98,7 +98,7 @@ class Request:
     size: float  # relative to the body file
     start: float  # s, until which it is held or follows its keys
     led: bool  # whether the velocities are those of its keys, at the shape's origin
-    loads: str  # AUTO (the best that the file holds), TABLE, SURFACE, COEFFICIENTS
+    loads: str  # AUTO (what the file recommends or holds), TABLE, SURFACE, COEFFICIENTS
     drag_coefficient: float
     lift_coefficient: float
     noise: bool

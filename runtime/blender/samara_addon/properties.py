@@ -57,7 +57,7 @@ class SamaraBody(bpy.types.PropertyGroup):
         name="Loads",
         description="The source of drag, lift and moments",
         items=[
-            ("AUTO", "Automatic", "The best that the body file has: tables, otherwise surface loads, otherwise coefficients"),
+            ("AUTO", "Automatic", "What the body file recommends, otherwise its tables, otherwise surface loads, otherwise coefficients"),
             ("TABLE", "Tables", "The body file's tables, baked with OpenFOAM"),
             ("SURFACE", "Surface", "Forces estimated from potential flow, without CFD"),
             ("COEFFICIENTS", "Coefficients", "Drag and lift coefficients"),

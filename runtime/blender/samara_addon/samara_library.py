@@ -11,7 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t,
 import numpy
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
-API_VERSION = 8
+API_VERSION = 9
 
 LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE, LOADS_SURFACE = 0, 1, 2, 3
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
@@ -120,6 +120,7 @@ _PLAIN = {
     "samara_body_has_added_mass": (c_int, [c_void_p]),
     "samara_body_has_tables": (c_int, [c_void_p]),
     "samara_body_has_surface_loads": (c_int, [c_void_p]),
+    "samara_body_recommended_loads": (c_int, [c_void_p]),
     "samara_body_vertex_count": (c_size_t, [c_void_p]),
     "samara_body_triangle_count": (c_size_t, [c_void_p]),
     "samara_simulation_free": (None, [c_void_p]),
@@ -208,10 +209,11 @@ class Body:
         return bool(library().samara_body_has_surface_loads(self.handle))
 
     def loads_in_use(self, choice):
-        """Returns TABLE, SURFACE or COEFFICIENTS: the choice, or for AUTO the best that the file holds."""
+        """Returns TABLE, SURFACE or COEFFICIENTS: the choice, or for AUTO what the file recommends or holds."""
         if choice != "AUTO":
             return choice
-        return "TABLE" if self.has_tables else "SURFACE" if self.has_surface_loads else "COEFFICIENTS"
+        loads = library().samara_body_recommended_loads(self.handle)
+        return {LOADS_TABLE: "TABLE", LOADS_SURFACE: "SURFACE"}.get(loads, "COEFFICIENTS")
 
     def surface(self):
         """Returns vertices (n, 3), in metres and the shape's axes, and triangles (m, 3), counter-clockwise from outside."""

@@ -123,16 +123,7 @@ Wanted wanted_of(const SceneBody& scene_body, const std::string& folder) {
             // A baked body is in metres already: the scene's scale went into it.
             .scale = folder.empty() ? scene_body.scale : 1.0,
             .added_mass = scene_body.added_mass,
-            .surface_loads = asked || scene_body.loads_by_default};
-}
-
-/// Whether a body that the scene leaves to what its file holds is without the tables for it.
-bool flies_by_surface(const SceneBody& scene_body, const Body& body) {
-    if (body.tables || !scene_body.loads_by_default || scene_body.models_auto) return false;
-    const bool asks_for_tables =
-        scene_body.table_reynolds_number ||
-        (!scene_body.turbulence_by_default && scene_body.turbulence == Turbulence::table);
-    return !asks_for_tables;
+            .surface_loads = asked || scene_body.open.loads};
 }
 
 }  // namespace
@@ -149,10 +140,7 @@ std::vector<LoadedBody> load_scene_bodies(Scene& scene, const std::string& folde
                              : bodies[static_cast<std::size_t>(same - all_wanted.begin())]);
         all_wanted.push_back(wanted);
         if (!folder.empty()) require_same_shape(wanted.file, *bodies.back().body, body);
-        if (flies_by_surface(body, *bodies.back().body)) {
-            body.loads = Loads::surface;
-            if (body.turbulence_by_default) body.turbulence = Turbulence::none;
-        }
+        if (!body.models_auto) choose_open_models(*bodies.back().body, body.open, body);
     }
     return bodies;
 }

@@ -7,6 +7,7 @@
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/body/dynamic_coefficients.hpp"
 #include "samara/core/body/load_tables.hpp"
+#include "samara/core/body/recommended_models.hpp"
 #include "samara/core/body/surface_loads.hpp"
 #include "samara/core/physics/mass_specification.hpp"
 #include "samara/core/surface/surface.hpp"
@@ -99,6 +100,7 @@ struct Body {
     std::optional<LoadTables> tables;               ///< none before `samara bake`
     std::optional<IdentifiedCoefficients> dynamic;  ///< of a body in unsteady motion; defaults where absent
     std::optional<MassSpecification> mass;          ///< its mass where a scene gives none
+    std::optional<RecommendedModels> recommended;   ///< its models where a scene gives none
 };
 
 /// Returns the mass that a user asked for, or the body's own where `asked` is not given; not given where

@@ -217,6 +217,7 @@ std::string error_of(const Body& body) {
     if (error.empty() && body.tables) error = error_of(*body.tables, body.moments.surface_area);
     if (error.empty() && body.dynamic) error = error_of(body.dynamic->values, radius);
     if (error.empty() && body.mass) error = error_of(*body.mass, body.surface);
+    if (error.empty() && body.recommended) error = error_of(*body.recommended);
     return error;
 }
 

@@ -248,6 +248,7 @@ Body read_body_file(const std::filesystem::path& path) {
     if (file.has("/tables")) body.tables = read_tables(file);
     if (file.has("/dynamic_coefficients")) body.dynamic = read_dynamic_coefficients(file);
     if (file.has("/mass")) body.mass = read_mass(file);
+    if (file.has("/recommended")) body.recommended = read_recommended_models(file);
     if (const std::string error = error_of(body); !error.empty()) {
         throw Error(fmt::format("{}: {}; make the file again", path.string(), error));
     }
@@ -279,6 +280,7 @@ void write_body_file(const std::filesystem::path& path, const Body& body) {
         if (body.tables) write_tables(file, *body.tables);
         if (body.dynamic) write_dynamic_coefficients(file, *body.dynamic);
         if (body.mass) write_mass(file, *body.mass);
+        if (body.recommended) write_recommended_models(file, *body.recommended);
     });
 }
 

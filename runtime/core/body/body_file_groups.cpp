@@ -164,6 +164,40 @@ MassSpecification read_mass(const Hdf5Reader& file) {
 
 namespace {
 
+constexpr const char* recommended_group = "/recommended";
+
+/// Returns the text's place among the names; throws Error, naming the attribute, where it is none of them.
+template <std::size_t count>
+std::size_t named(const Hdf5Reader& file, const char* attribute,
+                  const std::array<const char*, count>& names) {
+    const std::string text = file.text_attribute(recommended_group, attribute);
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    throw Error(fmt::format("{}: {} has {} \"{}\"; choose it again with 'samara recommend'",
+                            file.path().string(), recommended_group, attribute, text));
+}
+
+}  // namespace
+
+void write_recommended_models(Hdf5Writer& file, const RecommendedModels& models) {
+    file.attribute(recommended_group, "loads", std::string_view(name_of(models.loads)));
+    file.attribute(recommended_group, "patches", std::int64_t{models.patches});
+    file.attribute(recommended_group, "turbulence", std::string_view(name_of(models.turbulence)));
+    file.attribute(recommended_group, "origin", std::string_view(models.origin));
+}
+
+RecommendedModels read_recommended_models(const Hdf5Reader& file) {
+    RecommendedModels models;
+    models.loads = static_cast<Loads>(named(file, "loads", names_of_loads));
+    models.turbulence = static_cast<Turbulence>(named(file, "turbulence", names_of_turbulence));
+    models.patches = static_cast<int>(
+        std::clamp<std::int64_t>(file.integer_attribute(recommended_group, "patches"), 0, 1000));
+    models.origin = file.text_attribute(recommended_group, "origin");
+    return models;
+}
+
+namespace {
+
 constexpr const char* region_name = "/tables/planned";
 constexpr const char* report_name = "/tables/plan";
 

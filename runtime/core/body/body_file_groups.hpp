@@ -3,6 +3,7 @@
 #include "samara/core/body/dynamic_coefficients.hpp"
 #include "samara/core/body/load_tables.hpp"
 #include "samara/core/body/planned_region.hpp"
+#include "samara/core/body/recommended_models.hpp"
 #include "samara/core/body/surface_loads.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
 #include "samara/core/files/hdf5_writer.hpp"
@@ -24,6 +25,12 @@ void write_mass(Hdf5Writer& file, const MassSpecification& mass);
 
 /// Reads the group /mass of a body file. Throws Error where it holds both a density and a mass, or neither.
 MassSpecification read_mass(const Hdf5Reader& file);
+
+/// Writes the group /recommended of a body file (docs/reference/file-formats.md).
+void write_recommended_models(Hdf5Writer& file, const RecommendedModels& models);
+
+/// Reads the group /recommended. Throws Error where it names loads or turbulence that no body can have.
+RecommendedModels read_recommended_models(const Hdf5Reader& file);
 
 /// Writes /tables/planned and /tables/plan (docs/file-formats) where the region does not cover all
 /// directions.

@@ -99,6 +99,15 @@ int samara_body_has_surface_loads(const samara_body* body) {
     return body != nullptr && body->loaded.body->surface_loads.has_value() ? 1 : 0;
 }
 
+int samara_body_recommended_loads(const samara_body* body) {
+    if (body == nullptr) return SAMARA_LOADS_NONE;
+    const samara::Body& content = *body->loaded.body;
+    if (!content.tables && !content.surface_loads) return SAMARA_LOADS_NONE;
+    samara::BodyPhysics physics;
+    samara::choose_open_models(content, {.loads = true, .patches = true, .turbulence = true}, physics);
+    return static_cast<int>(physics.loads);
+}
+
 size_t samara_body_vertex_count(const samara_body* body) {
     return body == nullptr ? 0 : body->flat.vertices.size();
 }

@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition; what exists does not change. */
-#define SAMARA_API_VERSION 8
+#define SAMARA_API_VERSION 9
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may be
  * missing. */
@@ -79,6 +79,8 @@ SAMARA_API double samara_body_mass(const samara_body* body); /* kg: its file's; 
 SAMARA_API int samara_body_has_added_mass(const samara_body* body);    /* needed by default */
 SAMARA_API int samara_body_has_tables(const samara_body* body);        /* of loads and turbulence */
 SAMARA_API int samara_body_has_surface_loads(const samara_body* body); /* without CFD. Since version 8 */
+/* What SAMARA_LOADS_OF_BODY is for this body: TABLE or SURFACE; NONE where it holds neither. Since version 9. */
+SAMARA_API int samara_body_recommended_loads(const samara_body* body);
 
 /* The numbers of vertices and triangles of the surface, to show the body: flat triangles, into four of which
  * each curved one is cut. */
@@ -142,13 +144,14 @@ enum {
     SAMARA_LOADS_NONE = 0,
     SAMARA_LOADS_COEFFICIENTS = 1,
     SAMARA_LOADS_TABLE = 2,
-    SAMARA_LOADS_SURFACE = 3 /* since version 8 */
+    SAMARA_LOADS_SURFACE = 3, /* since version 8 */
+    SAMARA_LOADS_OF_BODY = 4  /* since version 9: those the body file recommends, or the best it holds */
 };
 enum {
     SAMARA_TURBULENCE_NONE = 0,
     SAMARA_TURBULENCE_CONSTANT = 1,
     SAMARA_TURBULENCE_TABLE = 2,
-    SAMARA_TURBULENCE_AS_LOADS = 3 /* from the table where the loads are, else none */
+    SAMARA_TURBULENCE_AS_LOADS = 3 /* as the body file recommends, or the table's where the loads are */
 };
 enum {
     SAMARA_LANGEVIN_SEEN_FLUID = 0,
@@ -183,7 +186,7 @@ typedef struct samara_body_group {
     double spread_position[3];  /* m: several start up to this far from `position` along each axis ... */
     double spread_angle;        /* rad: ... and rotated by up to this, drawn from the seed */
 
-    int32_t loads;                /* SAMARA_LOADS_...; default: TABLE */
+    int32_t loads;                /* SAMARA_LOADS_...; default: OF_BODY, before version 9 TABLE */
     double drag_coefficient;      /* with COEFFICIENTS, as all of the next five; default: 1 */
     double lift_coefficient;      /* default: 0 */
     double reference_area;        /* m^2; default (0): the area projected along the motion */
@@ -201,7 +204,8 @@ typedef struct samara_body_group {
     int32_t dynamic_coefficients; /* SAMARA_DYNAMIC_...; default: OF_BODY */
 
     /* since SAMARA_API_VERSION 4 */
-    int32_t patches; /* of the surface, each of which bears loads by its own velocity; default: 1 */
+    int32_t patches; /* of the surface, each of which bears loads by its own velocity, 1 to 32; default (0): as
+                        the body file recommends, or 1 */
 
     /* since SAMARA_API_VERSION 7 */
     double spread_start;  /* s: several start up to this after `start`, drawn from the seed */

@@ -53,8 +53,9 @@ CoefficientLoads read_coefficients(const samara_body_group& group) {
     return coefficients;
 }
 
-void read_turbulence(const samara_body_group& group, BodyPhysics& body) {
-    if (group.turbulence == SAMARA_TURBULENCE_AS_LOADS) {
+void read_turbulence(const samara_body_group& group, GivenGroup& body) {
+    body.open.turbulence = group.turbulence == SAMARA_TURBULENCE_AS_LOADS;
+    if (body.open.turbulence) {
         body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
     } else {
         body.turbulence = choice<Turbulence>(group.turbulence, SAMARA_TURBULENCE_TABLE, "turbulence");
@@ -64,16 +65,18 @@ void read_turbulence(const samara_body_group& group, BodyPhysics& body) {
     body.langevin = choice<Langevin>(group.langevin, SAMARA_LANGEVIN_WAKE, "langevin");
 }
 
-void read_physics(const samara_body_group& group, BodyPhysics& body) {
+void read_physics(const samara_body_group& group, GivenGroup& body) {
     body.mass = read_mass(group);
-    body.loads = choice<Loads>(group.loads, SAMARA_LOADS_SURFACE, "loads");
+    body.open.loads = group.loads == SAMARA_LOADS_OF_BODY;
+    if (!body.open.loads) body.loads = choice<Loads>(group.loads, SAMARA_LOADS_SURFACE, "loads");
     body.coefficients = read_coefficients(group);
     body.table_reynolds_number = unless_zero(group.table_reynolds_number);
-    body.patches = group.patches;
+    body.open.patches = group.patches == 0;
+    if (!body.open.patches) body.patches = group.patches;
     body.added_mass = group.added_mass != 0;
     body.dynamic = choice<Dynamic>(group.dynamic_coefficients, SAMARA_DYNAMIC_NONE, "dynamic_coefficients");
     read_turbulence(group, body);
-    require_rules(broken_rule(body));
+    require_rules(broken_rule(static_cast<const BodyPhysics&>(body)));
     if (body.coefficients.normal) body.coefficients.normal->normalize();
 }
 
@@ -140,13 +143,12 @@ samara_body_group default_group() {
     group.size = sizeof group;
     group.count = 1;
     group.orientation[0] = 1.0;
-    group.loads = SAMARA_LOADS_TABLE;
+    group.loads = SAMARA_LOADS_OF_BODY;
     group.drag_coefficient = body.coefficients.drag_coefficient;
     group.lift_coefficient = body.coefficients.lift_coefficient;
     group.turbulence = SAMARA_TURBULENCE_AS_LOADS;
     group.langevin = SAMARA_LANGEVIN_WAKE;
     group.added_mass = 1;
-    group.patches = 1;
     group.smallest_size = 1.0;
     group.largest_size = 1.0;
     group.dynamic_coefficients = SAMARA_DYNAMIC_OF_BODY;
@@ -162,7 +164,8 @@ GivenGroup read_group(const samara_body_group& given) {
     return body;
 }
 
-void require_data(const Body& body, const GivenGroup& group) {
+GivenGroup of_body(const Body& body, GivenGroup group) {
+    choose_open_models(body, group.open, group);
     const std::string& name = group.name.empty() ? body.name : group.name;
     if (!mass_asked_or_own(group.mass, body).is_given()) {
         reject("density", "or mass is missing, and the body file has none; give one of the two");
@@ -187,6 +190,7 @@ void require_data(const Body& body, const GivenGroup& group) {
                                       "bake', or set {1} otherwise",
                                       name, loads ? "loads" : "turbulence"));
     }
+    return group;
 }
 
 }  // namespace samara

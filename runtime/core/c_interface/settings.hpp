@@ -11,6 +11,7 @@ namespace samara {
 /// The content of a caller's samara_body_group.
 struct GivenGroup : BodyPhysics, Release {
     std::string name;  ///< empty where the caller gave none
+    OpenModels open;   ///< the models that the caller leaves to the body file
 };
 
 /// Returns the default content of samara_settings.
@@ -26,8 +27,8 @@ samara_body_group default_group();
 /// Returns a caller's body group. Throws StatusError as read_settings() does.
 GivenGroup read_group(const samara_body_group& group);
 
-/// Throws StatusError of SAMARA_MISSING_DATA, in the words of the C interface, where the body lacks data that
-/// the group asks for.
-void require_data(const Body& body, const GivenGroup& group);
+/// Returns the group with the models chosen that the caller leaves to the body file. Throws StatusError of
+/// SAMARA_MISSING_DATA, in the words of the C interface, where the body lacks data that the group asks for.
+GivenGroup of_body(const Body& body, GivenGroup group);
 
 }  // namespace samara

@@ -98,8 +98,7 @@ samara_status samara_simulation_add(samara_simulation* simulation, const samara_
         require(simulation, "simulation");
         require(body, "body");
         require(group, "group");
-        const samara::GivenGroup given = samara::read_group(*group);
-        samara::require_data(*body->loaded.body, given);
+        const samara::GivenGroup given = samara::of_body(*body->loaded.body, samara::read_group(*group));
         const size_t added = simulation->core.add(body->loaded, given, given, given.name);
         if (first != nullptr) *first = added;
     });

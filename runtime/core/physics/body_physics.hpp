@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "samara/core/base/linear_algebra.hpp"
@@ -20,6 +22,16 @@ enum class Langevin { sampled_turbulence, body_velocity, wake };
 /// The source of the coefficients of the loads beyond those of a steady translation: the body file, with the
 /// defaults where it has none; the defaults; none.
 enum class Dynamic { of_body, by_default, none };
+
+/// The names of Loads and Turbulence in files and texts, in their order.
+inline constexpr std::array names_of_loads = {"none", "coefficients", "table", "surface"};
+inline constexpr std::array names_of_turbulence = {"none", "constant", "table"};
+constexpr const char* name_of(Loads loads) {
+    return names_of_loads[static_cast<std::size_t>(loads)];
+}
+constexpr const char* name_of(Turbulence turbulence) {
+    return names_of_turbulence[static_cast<std::size_t>(turbulence)];
+}
 
 /// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body
 /// (docs/explanation/steady-loads.md).

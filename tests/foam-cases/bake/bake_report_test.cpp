@@ -31,7 +31,7 @@ std::string said_of(const std::vector<FallBalance>& balances) {
 TEST(BakeReport, NotesTheFallsWhoseMomentaDoNotBalanceAndTheirRemedy) {
     EXPECT_THAT(said_of({{0.02, 0.10}, {0.012, 0.16}}),
                 AllOf(HasSubstr("rubber.body.h5"), HasSubstr("fall_01"), HasSubstr("moment by 16 %"),
-                      HasSubstr("--fall-step 0.5"), Not(HasSubstr("fall_00"))));
+                      HasSubstr("--fall-step 0.25"), Not(HasSubstr("fall_00"))));
     EXPECT_THAT(said_of({{0.06, 0.10}}), HasSubstr("force off by 6 %"));
     EXPECT_THAT(said_of({{0.049, 0.149}}), IsEmpty());
     EXPECT_THAT(said_of({}), IsEmpty());

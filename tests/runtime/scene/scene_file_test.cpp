@@ -156,10 +156,12 @@ TEST_F(SceneFile, LoadsOfTheSurfaceAreAskedForOrLeftToWhatTheBodyHolds) {
     };
     EXPECT_EQ(body("loads = \"surface\"").loads, Loads::surface);
     EXPECT_EQ(body("loads = \"surface\"").turbulence, Turbulence::none);
-    EXPECT_FALSE(body("loads = \"surface\"").loads_by_default);
-    EXPECT_TRUE(body("").loads_by_default);
-    EXPECT_TRUE(body("").turbulence_by_default);
-    EXPECT_FALSE(body("turbulence = \"none\"").turbulence_by_default);
+    EXPECT_FALSE(body("loads = \"surface\"").open.loads);
+    EXPECT_TRUE(body("").open.loads);
+    EXPECT_TRUE(body("").open.patches);
+    EXPECT_FALSE(body("patches = 1").open.patches);
+    EXPECT_TRUE(body("").open.turbulence);
+    EXPECT_FALSE(body("turbulence = \"none\"").open.turbulence);
     EXPECT_THAT(rejection(with_body("density = 1\nloads = \"surface\"\nturbulence = \"table\"")),
                 AllOf(HasSubstr("scene.toml:8: turbulence"), HasSubstr("loads = \"table\"")));
 }

@@ -81,6 +81,7 @@ void expect_equal(const Body& a, const Body& b) {
         EXPECT_EQ(a.dynamic->densities.highest, b.dynamic->densities.highest);
     }
     EXPECT_EQ(a.mass, b.mass);
+    EXPECT_EQ(a.recommended, b.recommended);
     ASSERT_EQ(a.surface_loads.has_value(), b.surface_loads.has_value());
     if (a.surface_loads) {
         EXPECT_EQ(a.surface_loads->surface.vertices, b.surface_loads->surface.vertices);

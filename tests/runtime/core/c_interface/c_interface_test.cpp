@@ -237,7 +237,7 @@ TEST(CInterface, KindsOutOfRangeAreRefusedByName) {
         {"spread_angle", [](samara_body_group& k) { k.spread_angle = 4.0; }},
         {"spread_start", [](samara_body_group& k) { k.spread_start = -1.0; }},
         {"smallest_size and largest_size", [](samara_body_group& k) { k.largest_size = 2000.0; }},
-        {"loads", [](samara_body_group& k) { k.loads = 4; }},
+        {"loads", [](samara_body_group& k) { k.loads = 5; }},
         {"drag_coefficient", [](samara_body_group& k) { k.drag_coefficient = -1.0; }},
         {"lift_coefficient", [](samara_body_group& k) { k.lift_coefficient = not_a_number; }},
         {"reference_area", [](samara_body_group& k) { k.reference_area = -1.0; }},
@@ -253,7 +253,7 @@ TEST(CInterface, KindsOutOfRangeAreRefusedByName) {
         {"table_reynolds_number", [](samara_body_group& k) { k.table_reynolds_number = -1.0; }},
         {"table_reynolds_number", [](samara_body_group& k) { k.table_reynolds_number = not_a_number; }},
         {"dynamic_coefficients", [](samara_body_group& k) { k.dynamic_coefficients = 3; }},
-        {"patches", [](samara_body_group& k) { k.patches = 0; }},
+        {"patches", [](samara_body_group& k) { k.patches = -1; }},
         {"patches", [](samara_body_group& k) { k.patches = 33; }},
     };
     const BodyOnDisk body;

@@ -97,6 +97,25 @@ TEST(CModels, EachIsAnotherMotionAndItsStateIsOfNoOther) {
     }
 }
 
+TEST(CModels, ABodyFlownByWhatItsFileRecommendsFliesAsIfThatWereGiven) {
+    Body body = rubber_with_own_coefficients();
+    samara_body_group group = rubber_group();
+    group.patches = 8;
+    group.turbulence = SAMARA_TURBULENCE_NONE;
+    const std::vector<samara_pose> given = poses_at(simulation_of(BodyOnDisk(body), group), 0.5);
+    body.recommended = RecommendedModels{.patches = 8, .turbulence = Turbulence::none};
+    const BodyOnDisk on_disk(body);
+    EXPECT_EQ(samara_body_recommended_loads(on_disk.get()), SAMARA_LOADS_TABLE);
+    EXPECT_EQ(samara_body_recommended_loads(nullptr), SAMARA_LOADS_NONE);
+    EXPECT_TRUE(same_bytes(poses_at(simulation_of(on_disk, rubber_group()), 0.5), given));
+    group = rubber_group();
+    group.patches = 1;
+    group.turbulence = SAMARA_TURBULENCE_TABLE;
+    EXPECT_TRUE(
+        same_bytes(poses_at(simulation_of(on_disk, group), 0.5),
+                   poses_at(simulation_of(BodyOnDisk(rubber_with_own_coefficients()), rubber_group()), 0.5)));
+}
+
 TEST(CModels, WithoutAddedMassABodyFileWithoutItFlies) {
     Body bare = rubber();
     bare.kirchhoff.reset();
