@@ -105,6 +105,24 @@ def counts_table(rows):
                    percent(float(row["mean_descent_error"])), percent(float(row["mean_worst_error"]))] for row in rows))
 
 
+def classes_table():
+    """The falls of full CFD in two classes: regular ones, judged by their metrics, and irregular ones, by distributions; of the standard
+    bake with noise."""
+    test_falls, long_falls = f"{STUDIES}/test-falls/falls.csv", f"{STUDIES}/falls/long/falls.csv"
+    sets = ((HELD_OUT, test_falls, lambda fall: fall in TEST_SCENES), (HARD, test_falls, lambda fall: fall in HARD_STARTS),
+            (SEEN, test_falls, lambda fall: fall not in (*HARD_STARTS, *TEST_SCENES)), (LONG, long_falls, lambda fall: True))
+
+    def line(what, file, belongs):
+        rows = [row for row in rows_of_falls("on", file) if belongs(row["fall"])]
+        regular = [row for row in rows if row["judged_by"] == "metrics"]
+        irregular = [row for row in rows if row["judged_by"] == "distributions"]
+        agreeing = [row for row in irregular if row["agrees_as_judged"] == "yes"]
+        return [what, f"{sum(map(has_the_regime, regular))} of {len(regular)}", f"{sum(map(agrees, regular))} of {len(regular)}",
+                f"{len(agreeing)} of {len(irregular)}", f"{sum(row['certain'] == 'yes' for row in irregular)} of {len(irregular)}"]
+
+    return table(["falls", "regular: regime right", "within 10, 20, 30 %", "irregular: agree", "certain"], (line(*one) for one in sets))
+
+
 def held_out_table():
     """Fall by fall: the standard bake's differences from full CFD, with what the reference is uncertain by."""
     def cell(row, figure):
@@ -187,7 +205,7 @@ def main(words):
     rows = list(summaries())
     written(f"{FOLDER}/accuracy.csv", [HEADS] + [[row[head] for head in HEADS] for row in rows])
     rows, nature = rows_from(f"{FOLDER}/accuracy.csv"), rows_from(f"{STUDIES}/nature/nature.csv")
-    write_tables(PAGE, [held_out_table(), counts_table(rows), measured_table(nature), tally_table(nature)], mark("accuracy"))
+    write_tables(PAGE, [held_out_table(), counts_table(rows), classes_table(), measured_table(nature), tally_table(nature)], mark("accuracy"))
     write_tables("README.md", [front_table(rows, nature)], mark("accuracy"))
     return 0
 

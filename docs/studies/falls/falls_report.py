@@ -215,8 +215,8 @@ def row_of(scene, noise, comparison):
                 measure.get("relative_difference"),
                 measure["reference_uncertainty"] / magnitude if magnitude and measure.get("reference_uncertainty") else None]
     apart = comparison["first_swing"]["path_distance"]
-    return row + [apart["value"] if apart else None,
-                  "yes" if comparison["agrees_by_metrics"] else "no"]
+    return row + [apart["value"] if apart else None, "yes" if comparison["agrees_by_metrics"] else "no", comparison["judged_by"],
+                  "yes" if comparison["agrees"] else "no", "yes" if comparison["certain"] else "no"]
 
 
 def largest_miss(differences, wrong_regime):
@@ -279,7 +279,7 @@ def agrees_narrowly(row):
 def heading():
     columns = [f"{figure}_{what}" for figure in FIGURES
                for what in ("runtime", "cfd", "cfd_error", "difference", "uncertainty")]
-    return ["fall", "noise", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees"]
+    return ["fall", "noise", "regime_runtime", "regime_cfd"] + columns + ["first_swing_apart", "agrees", "judged_by", "agrees_as_judged", "certain"]
 
 
 def written(target, rows):

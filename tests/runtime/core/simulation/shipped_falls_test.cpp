@@ -40,8 +40,10 @@ constexpr ShippedFall falls[] = {
 
 BodyMeasures flown(const ShippedFall& fall) {
     Scene scene = read_scene_file(std::string(SAMARA_SOURCE_DIRECTORY "/docs/") + fall.scene + ".toml");
-    scene.bodies.front().turbulence = Turbulence::none;
     const Body body = read_body_file(ready_body_file(fall.body));
+    SceneBody& scene_body = scene.bodies.front();
+    choose_open_models(body, scene_body.open, scene_body);
+    scene_body.turbulence = Turbulence::none;
     const Motion motion = simulate(scene, {{body, "hash"}}, 1, [](double, double) { return true; }).motion;
     return measure_all(motion, motion.bodies.front());
 }
