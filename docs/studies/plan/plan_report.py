@@ -77,7 +77,11 @@ def subset(cases, target, chosen):
     plan["covers"] = "scene"
     for name in os.listdir(cases):
         if name != "plan.json":
-            os.symlink(os.path.abspath(os.path.join(cases, name)), os.path.join(target, name))
+            source, copy = os.path.join(cases, name), os.path.join(target, name)  # links to elsewhere are not followed
+            if os.path.isdir(source):
+                shutil.copytree(source, copy, symlinks=True, copy_function=os.link)
+            else:
+                os.link(source, copy)
     with open(os.path.join(target, "plan.json"), "w") as file:
         json.dump(plan, file)
     return plan

@@ -26,7 +26,7 @@ struct JudgedModels {
 struct ModelJudgement {
     std::vector<Measures> solved;           ///< of each fall
     std::vector<JudgedModels> judged = {};  ///< the simplest first
-    std::size_t best = 0;                   ///< index of the simplest that none misses by a third less
+    std::size_t best = 0;                   ///< index of the simplest that no other beats by a third
     /// Returns the best set; its origin says by how many falls, and its miss beside that of the next.
     [[nodiscard]] RecommendedModels recommended() const;
 };
