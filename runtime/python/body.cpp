@@ -100,6 +100,19 @@ void bind_body(py::module_& module) {
             },
             "Mass in kg that the file gives, used where a scene gives none; or None.")
         .def_property_readonly(
+            "recommended",
+            [](const Body& body) -> py::object {
+                if (!body.recommended) return py::none();
+                py::dict models;
+                models["loads"] = name_of(body.recommended->loads);
+                models["patches"] = body.recommended->patches;
+                models["turbulence"] = name_of(body.recommended->turbulence);
+                return models;
+            },
+            "The scene's keys loads, patches and turbulence by which the file says that it is best "
+            "simulated, used "
+            "where a scene gives none, as a dict; or None.")
+        .def_property_readonly(
             "kirchhoff_tensor",
             [](const Body& body) -> std::optional<Matrix6d> {
                 if (!body.kirchhoff) return {};
