@@ -406,6 +406,7 @@ SimulatedFall simulate_fall(const Body& body, const FallRecord& record, const Re
 
 ModelJudgement judge_models_by(const Body& body, const std::vector<FallRecord>& falls) {
     std::vector<Measures> solved;
+    solved.reserve(falls.size());
     for (const FallRecord& record : falls) solved.push_back(ready(body, record).measures);
     return judge_models(body, std::move(solved), [&](const RecommendedModels& models, std::size_t i) {
         return simulate_fall(body, falls[i], models).simulated;

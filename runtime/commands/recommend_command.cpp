@@ -86,6 +86,7 @@ Measures simulated(Scene scene, const Body& body, const RecommendedModels& model
 RecommendedModels judged(const Request& request, const Body& body, bool quiet) {
     const std::vector<JudgedFall> falls = judged_falls(request.falls);
     std::vector<Measures> solved;
+    solved.reserve(falls.size());
     for (const JudgedFall& fall : falls) solved.push_back(fall.solved);
     const ModelJudgement judgement =
         judge_models(body, solved, [&](const RecommendedModels& models, std::size_t i) {
