@@ -100,6 +100,7 @@ void run_other_program(const std::string& name, char** argv) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): commands catch their own
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "--help";
     for (const Command& command : commands) {

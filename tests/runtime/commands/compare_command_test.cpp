@@ -12,7 +12,6 @@
 namespace samara {
 namespace {
 
-using test::degree;
 using test::ProgramRun;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
