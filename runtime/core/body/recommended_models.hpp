@@ -22,9 +22,9 @@ struct RecommendedModels {
 
 /// The models that a user leaves to the body file.
 struct OpenModels {
-    bool loads = false;
-    bool patches = false;
-    bool turbulence = false;
+    bool loads = false;    ///< whether the file chooses the loads
+    bool patches = false;  ///< whether the file chooses the patches, where the loads are those it recommends
+    bool turbulence = false;  ///< whether the file chooses the turbulence, or it follows from the loads
 
     /// Compares member by member.
     bool operator==(const OpenModels&) const = default;
