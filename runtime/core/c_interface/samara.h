@@ -79,7 +79,7 @@ SAMARA_API double samara_body_mass(const samara_body* body); /* kg: its file's; 
 SAMARA_API int samara_body_has_added_mass(const samara_body* body);    /* needed by default */
 SAMARA_API int samara_body_has_tables(const samara_body* body);        /* of loads and turbulence */
 SAMARA_API int samara_body_has_surface_loads(const samara_body* body); /* without CFD. Since version 8 */
-/* What SAMARA_LOADS_OF_BODY is for this body: TABLE or SURFACE; NONE where it holds neither. Since version 9. */
+/* What SAMARA_LOADS_OF_BODY means for this body: TABLE, SURFACE, or NONE without both. Since version 9. */
 SAMARA_API int samara_body_recommended_loads(const samara_body* body);
 
 /* The numbers of vertices and triangles of the surface, to show the body: flat triangles, into four of which
@@ -204,8 +204,8 @@ typedef struct samara_body_group {
     int32_t dynamic_coefficients; /* SAMARA_DYNAMIC_...; default: OF_BODY */
 
     /* since SAMARA_API_VERSION 4 */
-    int32_t patches; /* of the surface, each of which bears loads by its own velocity, 1 to 32; default (0): as
-                        the body file recommends, or 1 */
+    int32_t patches; /* of the surface, each of which bears loads by its own velocity, 1 to 32; default (0):
+                        as the body file recommends, or 1 */
 
     /* since SAMARA_API_VERSION 7 */
     double spread_start;  /* s: several start up to this after `start`, drawn from the seed */
