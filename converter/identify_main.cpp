@@ -1,7 +1,6 @@
 // The program samara-identify: identifies dynamic coefficients from solved free falls, if wanted without some
 // of their terms.
 
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -28,18 +27,9 @@ struct IdentifyOptions {
     std::string hold;
 };
 
-std::vector<std::string> words_of(const std::string& list) {
-    std::vector<std::string> words;
-    std::istringstream stream(list);
-    for (std::string word; std::getline(stream, word, ',');) {
-        if (!word.empty()) words.push_back(word);
-    }
-    return words;
-}
-
 std::vector<FallRecord> records_of(const std::string& list) {
     std::vector<FallRecord> records;
-    for (const std::string& folder : words_of(list)) records.push_back(read_fall_record(folder));
+    for (const std::string& folder : comma_separated(list)) records.push_back(read_fall_record(folder));
     return records;
 }
 
@@ -52,7 +42,7 @@ nlohmann::json identify(const IdentifyOptions& options, bool leaves_stretch_out,
         throw Error(fmt::format("{}: holds no Kirchhoff tensor or no tables; bake it first", options.body));
     }
     Progress progress("identifying", "%");
-    LeftOutOfFalls left_out{.terms = words_of(options.without)};
+    LeftOutOfFalls left_out{.terms = comma_separated(options.without)};
     if (leaves_stretch_out) left_out.stretch = options.without_stretch;
     const std::vector<FallRecord> falls = records_of(options.falls);
     const Identification identification =

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -61,9 +60,8 @@ void print_plan(const BakePlan& plan) {
 /// Returns the one or two motion files of an option. Throws Error where one cannot be read, before the long
 /// work.
 std::vector<std::filesystem::path> motions_of(const char* option, const std::string& words) {
-    std::vector<std::filesystem::path> files;
-    std::stringstream stream(words);
-    for (std::string file; std::getline(stream, file, ',');) files.emplace_back(file);
+    const std::vector<std::string> names = comma_separated(words);
+    const std::vector<std::filesystem::path> files(names.begin(), names.end());
     if (files.size() > 2) throw Error(fmt::format("{} needs one motion file, or two: A.h5,B.h5", option));
     for (const std::filesystem::path& file : files) (void)MotionReader(file);
     return files;

@@ -159,6 +159,25 @@ std::size_t next_count(const ScenePlan& plan, const Symmetry& symmetry, double w
         2, static_cast<std::size_t>(std::floor(share * static_cast<double>(plan.chosen.size()))));
 }
 
+/// Raises the error by the tables to what the metrics changed by since the round before, beyond chance: drawn
+/// tables do not show a regime that only directions not solved yet would bring about.
+void include_change(const PlanRound& before, PlanRound& round) {
+    for (const Metric metric : baked_metrics) {
+        auto& error = round.error.metrics[metric];
+        if (!error) continue;
+        const auto now = round.simulation.mean(metric);
+        const auto then = before.simulation.mean(metric);
+        if (!then) {
+            error->of_table = std::max(error->of_table, 1.0);
+            continue;
+        }
+        const double change = now->value - then->value;
+        const double chance = std::hypot(now->error.value_or(0.0), then->error.value_or(0.0));
+        const double beyond = std::sqrt(std::max(change * change - 4.0 * chance * chance, 0.0));
+        error->of_table = std::max(error->of_table, beyond / std::abs(now->value));
+    }
+}
+
 /// Throws Error where the body has no load within the scene, which then determines no cases.
 void require_loads(const SceneGoal& goal, const SampledFalls& simulation) {
     const Scene& scene = goal.scene;
@@ -221,11 +240,13 @@ void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu
                                    goal.draws);
         if (round.error.worst_chance(goal.tolerance) <= 0.5) break;
     }
+    if (!plan.rounds.empty()) include_change(plan.rounds.back(), round);
     round.strayed = share_strayed(round.simulation.visits, plan);
     const std::vector<FlowVisit> visits = std::move(round.simulation.visits);
     round.simulation.visits = {};
     const double worst = round.error.worst(goal.tolerance);
-    const bool good = worst <= 1.0;
+    // One round shows no change: only one that solves all directions is enough.
+    const bool good = worst <= 1.0 && (!plan.rounds.empty() || uncertain.unsolved.empty());
     plan.rounds.push_back(round);
     // Directions outside the plan are judged with the rest, and planned from now on.
     if (symmetry.type != Symmetry::Type::spherical) merge(plan.region, visited_region(visits, symmetry));

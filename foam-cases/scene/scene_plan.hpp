@@ -55,8 +55,10 @@ struct ScenePlan {
 ScenePlan first_plan(const SceneGoal& goal, const Body& body, const BakeQuality& quality,
                      const Inflow& inflow, const SampledFalls& simulation);
 
-/// Judges a round: simulates the baked body, estimates the uncertainty by its tables, and either sets the
-/// reason to stop or adds the directions (and Reynolds numbers) that would lower the uncertainty most.
+/// Judges a round: simulates the baked body, estimates the uncertainty by its tables, which is at least the
+/// change of the motion since the round before, and either sets the reason to stop or adds the directions
+/// (and Reynolds numbers) that would lower the uncertainty most. A first round is not the last unless it
+/// solves all directions.
 void judge_round(const SceneGoal& goal, const Conversion& conversion, double cpu_seconds, ScenePlan& plan);
 
 /// The cost of the whole grid of the plan's candidates, with all nodes solved at the plan's main Reynolds

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -59,10 +58,8 @@ JudgedFall judged_fall(const std::string& scene_file, const std::string& referen
 }
 
 std::vector<JudgedFall> judged_falls(const std::string& list) {
-    std::vector<std::string> files;
-    std::istringstream stream(list);
-    for (std::string file; std::getline(stream, file, ',');) files.push_back(file);
-    if (files.size() % 2 != 0) {
+    const std::vector<std::string> files = comma_separated(list);
+    if (files.empty() || files.size() % 2 != 0) {
         throw Error(
             "--falls takes pairs of a scene and its reference motion, separated by commas, such as "
             "fall.toml,fall.h5");

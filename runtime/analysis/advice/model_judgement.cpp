@@ -1,12 +1,13 @@
 #include "samara/analysis/advice/model_judgement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "samara/analysis/metrics/metric_catalogue.hpp"
 #include "samara/core/base/error.hpp"
 
 namespace samara {
@@ -14,6 +15,8 @@ namespace {
 
 // One fall more or less changes a miss by so much (docs/studies/spin, "The default").
 constexpr double clearly_less = 2.0 / 3.0;
+// Of falls that autorotate; what is left of an oscillation says little there.
+constexpr std::array steady_spin_metrics = {Metric::descent_speed, Metric::spin_rate, Metric::coning_angle};
 
 /// Returns the sets of models that the body's data allow, the simplest first.
 std::vector<RecommendedModels> models_to_judge(const Body& body) {
@@ -40,20 +43,23 @@ std::string numbers_of(const Measures& fall) {
 }  // namespace
 
 double miss_of(const Measures& solved, const Measures& simulated) {
-    double sum = 0.0;
-    int count = 0;
-    const auto add = [&](const std::optional<double>& one, const std::optional<double>& other) {
-        if (!one || !other || *other == 0.0) return;
-        const double ratio = *one / *other;
+    const bool same_regime = simulated.regime == solved.regime;
+    double sum = same_regime ? 0.0 : 1.0;
+    int count = 1;
+    const auto add = [&](Metric metric) {
+        const double one = catalogued(metric).measured(solved).value_or(0.0);
+        const double other = catalogued(metric).measured(simulated).value_or(0.0);
+        if (one == 0.0 && other == 0.0) return;
+        const double ratio = one == 0.0 ? 0.0 : other / one;
         const double miss = ratio > 0.0 ? std::min(1.0, std::abs(std::log(ratio))) : 1.0;
         sum += miss * miss;
         ++count;
     };
-    add(simulated.descent_speed, solved.descent_speed);
-    add(simulated.frequency, solved.frequency);
-    add(simulated.inclination_amplitude, solved.inclination_amplitude);
-    add(simulated.rms_angular_speed, solved.rms_angular_speed);
-    add(simulated.regime == solved.regime ? 1.0 : 0.0, 1.0);
+    if (same_regime && solved.autorotation && simulated.autorotation) {
+        std::ranges::for_each(steady_spin_metrics, add);
+    } else {
+        std::ranges::for_each(baked_metrics, add);
+    }
     return std::sqrt(sum / count);
 }
 

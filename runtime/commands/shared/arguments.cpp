@@ -322,4 +322,13 @@ void require_motion_file_name(const std::string& output) {
     if (ending != ".h5") throw Error(fmt::format("{}: the name of a motion file ends in .h5", output));
 }
 
+std::vector<std::string> comma_separated(const std::string& list) {
+    std::vector<std::string> words;
+    std::istringstream stream(list);
+    for (std::string word; std::getline(stream, word, ',');) {
+        if (!word.empty()) words.push_back(word);
+    }
+    return words;
+}
+
 }  // namespace samara

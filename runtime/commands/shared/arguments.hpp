@@ -86,4 +86,7 @@ int run_guarded(const std::string& program, const std::function<void()>& work, b
 /// format it says which command makes such a file from a motion file.
 void require_motion_file_name(const std::string& output);
 
+/// Returns the words between the commas of a list, without empty ones.
+std::vector<std::string> comma_separated(const std::string& list);
+
 }  // namespace samara

@@ -135,6 +135,27 @@ TEST(ScenePlan, StopsWhereTheToleranceIsMet) {
     EXPECT_LT(plan.chosen.size(), plan.candidates.directions.size());
 }
 
+TEST(ScenePlan, StopsAfterItsFirstRoundOnlyWhereThatSolvesEveryDirection) {
+    EXPECT_GE(baked(goal_of(0.5), rubber()).rounds.size(), 2u);
+    SceneGoal goal = goal_of(0.5);
+    goal.whole_grid = true;
+    EXPECT_EQ(baked(goal, rubber()).rounds.size(), 1u);
+}
+
+TEST(ScenePlan, StatesNoErrorBelowTheChangeSinceTheRoundBefore) {
+    ScenePlan plan = baked(goal_of(0.002), rubber());
+    ASSERT_GE(plan.rounds.size(), 2u);
+    for (std::size_t i = 1; i < plan.rounds.size(); ++i) {
+        const auto now = *plan.rounds[i].simulation.mean(Metric::descent_speed);
+        const auto then = *plan.rounds[i - 1].simulation.mean(Metric::descent_speed);
+        const double change = std::abs(now.value - then.value);
+        const double chance = 2.0 * std::hypot(*now.error, *then.error);
+        const double stated =
+            plan.rounds[i].error.metrics[Metric::descent_speed]->of_table * std::abs(now.value);
+        EXPECT_GE(std::hypot(stated, chance), change * (1.0 - 1e-9)) << "round " << i;
+    }
+}
+
 TEST(ScenePlan, SolvesMoreDirectionsForASmallerTolerance) {
     EXPECT_GT(baked(goal_of(0.002), rubber()).chosen.size(), baked(goal_of(0.5), rubber()).chosen.size());
 }

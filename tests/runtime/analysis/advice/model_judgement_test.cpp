@@ -31,7 +31,21 @@ TEST(ModelJudgement, TheMissOfAFallIsTheRootMeanSquareOfItsMetrics) {
     EXPECT_NEAR(miss_of(falling(1.0), falling(99.0)), std::sqrt(0.2), 1e-12);  // no miss counts more than 1
     Measures still = falling(1.0);
     still.frequency.reset();
-    EXPECT_NEAR(miss_of(falling(1.0), still), 0.0, 1e-12);
+    EXPECT_NEAR(miss_of(falling(1.0), still), std::sqrt(0.2), 1e-12);
+    EXPECT_NEAR(miss_of(still, falling(1.0)), std::sqrt(0.2), 1e-12);
+    EXPECT_EQ(miss_of(still, still), 0.0);
+}
+
+TEST(ModelJudgement, FallsThatAutorotateMissByDescentSpinAndConing) {
+    Measures fall = falling(1.0, Regime::autorotating);
+    fall.autorotation = Autorotation{.spin_rate = 30.0, .coning_angle = 0.2};
+    Measures other = fall;
+    other.frequency.reset();
+    other.inclination_amplitude = 0.001;
+    EXPECT_EQ(miss_of(fall, other), 0.0);
+    other.autorotation->spin_rate = 40.0;
+    EXPECT_NEAR(miss_of(fall, other), std::log(4.0 / 3.0) / 2.0, 1e-12);
+    EXPECT_NEAR(miss_of(fall, falling(1.0)), std::sqrt(0.2), 1e-12);
 }
 
 TEST(ModelJudgement, RecommendsTheModelsThatAreNearestToTheFalls) {
