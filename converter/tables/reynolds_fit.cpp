@@ -167,7 +167,8 @@ ErrorMetrics ReynoldsFit::interpolation_error(const Vector3d& direction) const {
 }
 
 SurfaceTrend::SurfaceTrend(const SurfaceLoads& loads, const Symmetry& symmetry, double reynolds_number)
-    : tables_(as_tables(loads, 1.0)), reynolds_number_(reynolds_number) {
+    : tables_(as_tables(loads, 1.0, {}, {.turbulent_kinetic_energy = 0.0})),
+      reynolds_number_(reynolds_number) {
     for (const Matrix3d& element : elements_in_map_axes(symmetry)) {
         elements_.push_back(symmetry.axes * element);
     }

@@ -397,7 +397,7 @@ std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::files
         request.quality = options.quality;
         request.inflow = options.inflow;
         const BodyPhysics physics = as_simulated(body);
-        request.tables = physics.loads == Loads::table || physics.turbulence == Turbulence::table;
+        request.tables = uses_body_tables(physics.loads, physics.turbulence);
         if (request.tables) {
             request.goal = SceneGoal{.scene = scene,
                                      .body = i,

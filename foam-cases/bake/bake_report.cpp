@@ -244,6 +244,13 @@ void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePrepa
                                             : request.name.empty()           ? ScaleRemedy::option
                                                                              : ScaleRemedy::scene_key);
     notes.add(units, name, 0.0, units);
+    if (preparation.plan && request.quality.falls > 0 && request.probes == 0 &&
+        preparation.plan->quality.falls == 0) {
+        notes.add(
+            "dense", name, 0.0,
+            "is so dense that it is still speeding up at the end of a fall: no falls are solved, and its "
+            "dynamic coefficients are the defaults");
+    }
     if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
     notes.add(
         "laminar", name, preparation.plan->main_reynolds_number,

@@ -255,8 +255,17 @@ BodyState identification_start(const Body& body, int index) {
     return start;
 }
 
+bool has_time_to_fall(double speed, double length, double gravity) {
+    constexpr double least_share = 0.1;
+    return gravity * identification_fall_duration * length >= least_share * speed * speed;
+}
+
 void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpecification>& masses,
                double gravity, BakePlan& plan) {
+    for (const MassSpecification& mass : masses) {
+        const double speed = bake_speed(body, fluid, mass_of(mass, body), gravity);
+        if (gravity > 0.0 && !has_time_to_fall(speed, plan.reference_length, gravity)) plan.quality.falls = 0;
+    }
     if (plan.quality.falls == 0) return;
     const FallModel model = fall_model_of(plan.quality.fall_closure);
     double reynolds_number = 0.0;

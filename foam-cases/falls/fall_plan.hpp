@@ -51,8 +51,13 @@ inline constexpr double identification_fall_duration = 30.0;
 /// for each `index`, so that all motions occur.
 BodyState identification_start(const Body& body, int index);
 
+/// Returns whether a body of that terminal speed (m/s) and reference length (m), let go from rest, reaches a
+/// tenth of the speed in such a fall. Else the fall shows nothing of its loads in motion.
+bool has_time_to_fall(double speed, double length, double gravity);
+
 /// Adds the quality's falls and their estimated cost to a plan: of the body in the fluid, under a gravity of
-/// that magnitude (m/s^2), alternating between the masses. The body must have its Kirchhoff tensor.
+/// that magnitude (m/s^2), alternating between the masses. The body must have its Kirchhoff tensor. Of a body
+/// so dense that it has no time to fall, the plan's quality has no falls then.
 void add_falls(const Body& body, const Fluid& fluid, const std::vector<MassSpecification>& masses,
                double gravity, BakePlan& plan);
 

@@ -97,9 +97,7 @@ RecommendedModels given(const Request& request) {
     RecommendedModels models;
     models.loads = request.loads == "surface" ? Loads::surface : Loads::table;
     models.patches = request.patches.value_or(1);
-    const bool is_noisy =
-        request.turbulence.empty() ? models.loads == Loads::table : request.turbulence == "table";
-    models.turbulence = is_noisy ? Turbulence::table : Turbulence::none;
+    models.turbulence = request.turbulence == "none" ? Turbulence::none : Turbulence::table;
     models.origin = "given";
     return models;
 }

@@ -110,7 +110,7 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
 /// Says where coefficients were held at an end of their tables.
 void note_reynolds_numbers(BodyNotes& notes, const SceneBody& scene_body, const Body& body,
                            const BodyReport& report) {
-    if (scene_body.loads != Loads::table && scene_body.turbulence != Turbulence::table) return;
+    if (!uses_body_tables(scene_body.loads, scene_body.turbulence)) return;
     if (scene_body.table_reynolds_number) return;  // as the scene asks
     const double lowest = body.tables->reynolds_numbers.front();
     const double highest = body.tables->reynolds_numbers.back();

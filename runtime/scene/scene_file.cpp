@@ -146,7 +146,7 @@ CoefficientLoads read_coefficients(TomlTable& table, Loads loads) {
 }
 
 void read_turbulence(TomlTable& table, SceneBody& body) {
-    body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
+    body.turbulence = usual_turbulence(body.loads);
     body.turbulence = choice<Turbulence>(
         table, "turbulence",
         {{"none", Turbulence::none}, {"constant", Turbulence::constant}, {"table", Turbulence::table}},

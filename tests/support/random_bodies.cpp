@@ -62,6 +62,8 @@ DynamicCoefficients RandomBodies::coefficients(double size) {
     result.drag_in_spin = semidefinite(area * magnitude(0.01, 100.0));
     result.rotational_drag_in_spin = semidefinite(area * area * magnitude(0.01, 100.0));
     result.half_length = size * magnitude(0.1, 10.0);
+    result.laminar_rotational_drag = magnitude(0.01, 10.0);
+    result.spin_lift_onset = magnitude(0.01, 10.0);
     return result;
 }
 

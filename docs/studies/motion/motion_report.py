@@ -2,7 +2,8 @@
 """Error of the motion against time, from inertia alone to full CFD, on the nine held-out falls.
 
     motion_report.py BIN BODIES WORK [solve]    simulates the falls by every model, and writes motion.csv, motion.png and the table of
-                                                README.md; with `solve` it solves what is missing in WORK by full CFD first: three CPU hours
+                                                README.md; with `solve` it solves what is missing in WORK by full CFD first: three CPU hours;
+                                                without, the rows of full CFD stay
     motion_report.py                            writes the table again from the rows of the last run
 
 BODIES: as falls_report.py leaves it, NAME.body.h5 at quality standard, and NAME-preview.body.h5, which is baked here if it is missing.
@@ -40,6 +41,7 @@ MODELS = (
     ("drag coefficient 1", {"loads": "coefficients"}, "surface", 1, 1),
     ("the paper as printed (20 runs)", {"loads": "coefficients", "turbulence": "table", "langevin": "body-velocity"}, "standard", 1, 20),
     ("no bake", {"loads": "surface"}, "surface", 1, 1),
+    ("no bake, with noise (20 runs)", {"loads": "surface", "turbulence": "table"}, "surface", 1, 20),
     ("preview bake", {}, "preview", 1, 1),
     ("standard bake", {}, "standard", 1, 1),
     ("standard bake, five times the step", {}, "standard", 5, 1),
@@ -87,24 +89,26 @@ def row_of(programs, scene, model, seconds, motion):
     return row
 
 
-def is_solved(work, scene, cells):
-    return os.path.exists(f"{work}/{scene}-{cells}-{CLOSURE}/{scene}.h5")
-
-
 def flow_of(scene, cells):
     """The words with which a fall is solved that the film shows."""
     return ["--fields", str(FLOWS_A_SECOND)] if (scene, cells) == (FILM, REFERENCE_CELLS) else []
 
 
-def by_cfd(programs, work, solves):
-    """The rows of the falls on each mesh that is solved, or, if it `solves`, on all; references on the finest mesh, with what they
-    differ by from the next coarser one, go to FINE."""
+def rows_of_cfd():
+    """The rows of full CFD of the last run."""
+    with open(f"{FOLDER}/motion.csv", newline="", encoding="utf-8") as file:
+        return [row for row in csv.reader(file) if row[1].startswith("full CFD")]
+
+
+def by_cfd(programs, work):
+    """The rows of the falls on each mesh; references on the finest mesh, with what they differ by from the next coarser one, go to
+    FINE."""
     rows = []
     os.makedirs(FINE, exist_ok=True)
     for scene in SCENES:
-        motions = {cells: solved(programs, work, scene, cells, CLOSURE, flow_of(scene, cells), FALLS) for cells in (6000, REFERENCE_CELLS)
-                   if solves or is_solved(work, scene, cells)}
-        if REFERENCE_CELLS in motions and not os.path.exists(f"{FINE}/{scene}.h5"):
+        motions = {cells: solved(programs, work, scene, cells, CLOSURE, flow_of(scene, cells), FALLS)
+                   for cells in (6000, REFERENCE_CELLS)}
+        if not os.path.exists(f"{FINE}/{scene}.h5"):
             run([f"{programs}/samara", "validate", motions[REFERENCE_CELLS][0], "-o", f"{work}/{scene}-fine.h5", "--other-mesh",
                  f"{FALLS}/{scene}.h5", "--json"])
             shutil.copyfile(f"{work}/{scene}-fine.h5", f"{FINE}/{scene}.h5")
@@ -180,7 +184,7 @@ def main(words):
     if len(words) > 1:
         programs, bodies, work = words[1:4]
         os.makedirs(work, exist_ok=True)
-        rows = by_cfd(programs, work, "solve" in words)
+        rows = by_cfd(programs, work) if "solve" in words else rows_of_cfd()
         written(f"{FOLDER}/motion.csv", [HEADS] + by_runtime(programs, bodies) + by_mujoco(programs) + rows)
     with open(f"{FOLDER}/motion.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

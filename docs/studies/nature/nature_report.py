@@ -148,11 +148,11 @@ def rows_of(programs, case, model, motion):
                "error": f"{error:.2g}", "by": told["models"]}
 
 
-def with_copies(text, shape, loads=None):
+def with_copies(text, shape, loads):
     """A scene's text with copies of its body, which has this shape or body file, flown by these loads, and with its noise."""
     text = re.sub(r'(?m)^turbulence = .*\n', "", text)
     text = re.sub(r'shape = ".*"', f'shape = "{os.path.abspath(shape)}"', text)
-    return text + f"count = {COPIES}\nspread = {{ angle = {TURNED} }}\n" + (f'loads = "{loads}"\n' if loads else "")
+    return text + f"count = {COPIES}\nspread = {{ angle = {TURNED} }}\n" + f'loads = "{loads}"\n'
 
 
 def shape_of(scene):
@@ -166,7 +166,7 @@ def flown(programs, case, folder, bodies=None):
         scene = case.scene
     else:
         with open(scene, "w", encoding="utf-8") as file:
-            file.write(with_copies(read(case.scene), shape_of(case.scene), None if bodies else SURFACE))
+            file.write(with_copies(read(case.scene), shape_of(case.scene), "table" if bodies else SURFACE))
     words = [f"{programs}/samara", "simulate", scene, "-o", motion, "--json"] + (["--bodies", bodies] if bodies else [])
     return motion if run(words) is not None else None
 

@@ -120,7 +120,7 @@ class Advisor {
             return guessed;
         }
         ModelSet models = asked;
-        if (models.turbulence == Turbulence::table && is_laminar(*tables)) {
+        if (models.turbulence == Turbulence::table && tables && is_laminar(*tables)) {
             advice_.notes.emplace_back(
                 "no turbulence: the tables' turbulence is zero, as the flow is laminar");
             models.turbulence = Turbulence::none;

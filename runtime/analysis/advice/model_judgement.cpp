@@ -24,7 +24,7 @@ std::vector<RecommendedModels> models_to_judge(const Body& body) {
     for (const int patches : {1, 2}) {
         if (body.tables) sets.push_back({.patches = patches});
         if (body.surface_loads) {
-            sets.push_back({.loads = Loads::surface, .patches = patches, .turbulence = Turbulence::none});
+            sets.push_back({.loads = Loads::surface, .patches = patches});
         }
     }
     if (!sets.empty()) return sets;

@@ -10,9 +10,9 @@
 
 namespace samara {
 
-/// Returns how far a simulated fall is from the solved one: the root mean square, over baked_metrics or, where
-/// both autorotate, descent speed, spin rate and coning angle, of the natural logarithm of their ratio, at
-/// most 1 each, and of 1 for another regime. A metric that only one of the falls has counts as 1.
+/// Returns how far a simulated fall is from the solved one: the root mean square, over baked_metrics or,
+/// where both autorotate, descent speed, spin rate and coning angle, of the natural logarithm of their ratio,
+/// at most 1 each, and of 1 for another regime. A metric that only one of the falls has counts as 1.
 double miss_of(const Measures& solved, const Measures& simulated);
 
 /// One set of models beside the falls of a body.

@@ -40,14 +40,15 @@ std::string turbulence_in_words(const ModelSet& models) {
             return fmt::format("constant turbulence (k {:.3g} m^2/s^2, epsilon {:.3g} m^2/s^3)",
                                models.turbulent_kinetic_energy, models.dissipation_rate);
         default:
-            return "turbulence from tables";
+            return models.loads == Loads::surface ? "turbulence that all bodies share"
+                                                  : "turbulence from tables";
     }
 }
 
 }  // namespace
 
 bool uses_tables(const ModelSet& models) {
-    return models.loads == Loads::table || models.turbulence == Turbulence::table;
+    return uses_body_tables(models.loads, models.turbulence);
 }
 
 ModelSet model_set_of(const SceneBody& body) {

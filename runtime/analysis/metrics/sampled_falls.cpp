@@ -165,7 +165,7 @@ double sampled_duration(const Scene& scene, const SceneBody& body, const FallSam
 SceneBody guessed_before_bake(const Scene& scene, const SceneBody& scene_body, const Body& body) {
     SceneBody guessed = scene_body;
     const bool shaken = guessed.turbulence == Turbulence::table;
-    if (body.tables || (guessed.loads != Loads::table && !shaken)) return guessed;
+    if (body.tables || !uses_body_tables(guessed.loads, guessed.turbulence)) return guessed;
     if (guessed.loads == Loads::table) guessed.loads = Loads::coefficients;
     guessed.table_reynolds_number.reset();
     if (!shaken) return guessed;

@@ -66,7 +66,7 @@ class SamaraBody(bpy.types.PropertyGroup):
     drag_coefficient: FloatProperty(name="Drag", description="Drag coefficient", default=1.2, min=0.0)
     lift_coefficient: FloatProperty(name="Lift", description="Lift coefficient", default=0.6)
     noise: BoolProperty(
-        name="Noise", description="Random loads from the turbulence in the body file's tables", default=True
+        name="Noise", description="Random loads from the turbulence of the wake", default=True
     )
     velocity: FloatVectorProperty(
         name="Velocity", description="Velocity of the centre of mass at the first frame", subtype="VELOCITY", size=3

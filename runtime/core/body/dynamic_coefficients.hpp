@@ -57,6 +57,12 @@ struct DynamicCoefficients {
     Matrix3d rotational_drag_in_spin = Matrix3d::Zero();
     /// c (m): the body's half-length.
     double half_length = 0.0;
+    /// Two numbers of bodies by the loads of their surface, which no file holds. a: with a laminar boundary
+    /// layer the rotational drag is C_w (1 + a sqrt(1000 nu / (H L))).
+    double laminar_rotational_drag = 0.0;
+    /// b: of the force omega x v of T's isotropic part, the spin lift, the share |v|^2/(|v|^2 + b Q^2) is
+    /// there.
+    double spin_lift_onset = 0.0;
     std::string origin;  ///< where they come from, in words, for reports
 };
 

@@ -11,11 +11,7 @@ namespace {
 /// Returns the models of a body whose file recommends none.
 RecommendedModels usual_models(const Body& body) {
     if (body.tables || !body.surface_loads) return {};
-    return {.loads = Loads::surface, .turbulence = Turbulence::none};
-}
-
-bool needs_tables(const BodyPhysics& physics, const OpenModels& open) {
-    return physics.table_reynolds_number || (!open.turbulence && physics.turbulence == Turbulence::table);
+    return {.loads = Loads::surface};
 }
 
 }  // namespace
@@ -28,20 +24,17 @@ std::string error_of(const RecommendedModels& models) {
         return fmt::format("recommends {} patches, which must lie between 1 and {}", models.patches,
                            most_surface_patches);
     }
-    const bool of_table = models.turbulence == Turbulence::table && models.loads == Loads::table;
-    return of_table || models.turbulence == Turbulence::none
-               ? ""
-               : "recommends turbulence that its loads do not have";
+    return models.turbulence != Turbulence::constant ? ""
+                                                     : "recommends turbulence that its loads do not have";
 }
 
 void choose_open_models(const Body& body, const OpenModels& open, BodyPhysics& physics) {
     const RecommendedModels best = body.recommended.value_or(usual_models(body));
-    if (open.loads) physics.loads = needs_tables(physics, open) ? Loads::table : best.loads;
+    if (open.loads) physics.loads = physics.table_reynolds_number ? Loads::table : best.loads;
     const bool as_recommended = physics.loads == best.loads;
     if (open.patches && as_recommended) physics.patches = best.patches;
     if (!open.turbulence) return;
-    const Turbulence of_tables = as_recommended ? best.turbulence : Turbulence::table;
-    physics.turbulence = physics.loads == Loads::table ? of_tables : Turbulence::none;
+    physics.turbulence = as_recommended ? best.turbulence : usual_turbulence(physics.loads);
 }
 
 }  // namespace samara

@@ -13,7 +13,7 @@ struct Body;
 struct RecommendedModels {
     Loads loads = Loads::table;                 ///< table or surface
     int patches = 1;                            ///< of the surface, 1 to most_surface_patches
-    Turbulence turbulence = Turbulence::table;  ///< table, where the loads are, or none
+    Turbulence turbulence = Turbulence::table;  ///< table or none
     std::string origin = {};                    ///< what they were judged by, in words
 
     /// Compares member by member.

@@ -56,7 +56,7 @@ CoefficientLoads read_coefficients(const samara_body_group& group) {
 void read_turbulence(const samara_body_group& group, GivenGroup& body) {
     body.open.turbulence = group.turbulence == SAMARA_TURBULENCE_AS_LOADS;
     if (body.open.turbulence) {
-        body.turbulence = body.loads == Loads::table ? Turbulence::table : Turbulence::none;
+        body.turbulence = usual_turbulence(body.loads);
     } else {
         body.turbulence = choice<Turbulence>(group.turbulence, SAMARA_TURBULENCE_TABLE, "turbulence");
     }
@@ -184,7 +184,7 @@ GivenGroup of_body(const Body& body, GivenGroup group) {
                         name));
     }
     const bool loads = group.loads == Loads::table;
-    if ((loads || group.turbulence == Turbulence::table) && !body.tables) {
+    if (uses_body_tables(group.loads, group.turbulence) && !body.tables) {
         throw StatusError(SAMARA_MISSING_DATA,
                           fmt::format("body '{0}' holds no tables, which {1} needs; make them with 'samara "
                                       "bake', or set {1} otherwise",

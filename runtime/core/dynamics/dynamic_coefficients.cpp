@@ -95,6 +95,8 @@ DynamicCoefficients surface_dynamic_coefficients(const Body& body, const Surface
     const Matrix3d rotational = rotational_drag_tensor(body.surface, body.moments.centroid);
     coefficients.rotational_drag = motion.rotational_drag * rotational;
     coefficients.rotational_drag_in_spin = motion.rotational_drag_in_spin * rotational;
+    coefficients.laminar_rotational_drag = motion.laminar_rotational_drag;
+    coefficients.spin_lift_onset = motion.spin_lift_onset;
     coefficients.origin = "dynamic coefficients that all bodies share";
     return coefficients;
 }

@@ -13,15 +13,21 @@ inline constexpr double usual_drag_in_spin = 0.3;
 inline constexpr double usual_rotational_drag = 0.7;
 inline constexpr double usual_rotational_drag_in_spin = 0.7;
 
-/// The coefficients that all bodies share beside loads of the surface; chosen on the reference falls together
-/// with the constants of the pressure (docs/explanation/loads-without-a-bake.md).
+/// The coefficients that all bodies share beside loads of the surface; chosen on measured falls and the
+/// reference falls (docs/explanation/loads-without-a-bake.md).
 struct SurfaceMotion {
-    double transport = 0.72;  ///< T relative to the added mass
-    double spin_lift = 1.67;  ///< added to T, equal in all axes, relative to a third of the added mass' trace
-    double drag_in_motion = 1.86;           ///< C_m
-    double drag_in_spin = 0.57;             ///< C_s
-    double rotational_drag = 0.02;          ///< C_w
-    double rotational_drag_in_spin = 1.66;  ///< C_r
+    double transport = 0.76;  ///< T relative to the added mass
+    double spin_lift = 1.3;   ///< added to T, equal in all axes, relative to a third of the added mass' trace
+    double drag_in_motion = 1.7;           ///< C_m
+    double drag_in_spin = 0.6;             ///< C_s
+    double rotational_drag = 0.15;         ///< C_w
+    double rotational_drag_in_spin = 0.8;  ///< C_r
+    /// relative to C_w: what a laminar boundary layer adds at H L / nu = 1000; elsewhere by the root of its
+    /// inverse
+    double laminar_rotational_drag = 1.0;
+    /// The value of (|v|/Q)^2 at which half of the spin lift is left, which a wing does not have that stalls
+    /// by its rotation.
+    double spin_lift_onset = 1.4;
 };
 
 /// Returns the defaults for a body whose file holds none, guided by free falls of spheroids and a 1:2:4

@@ -36,8 +36,7 @@ double rotation_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
 }
 
 void require_tables(const Body& body, const BodyPhysics& physics, const std::string& name) {
-    const bool needed = physics.loads == Loads::table || physics.turbulence == Turbulence::table;
-    if (!needed || body.tables) return;
+    if (body.tables || !uses_body_tables(physics.loads, physics.turbulence)) return;
     throw Error(
         fmt::format("body '{0}': {1} = \"table\", but its file holds no tables; make them with 'samara bake "
                     "SCENE -o DIR' and simulate with --bodies DIR, or set {1} otherwise",
@@ -45,23 +44,18 @@ void require_tables(const Body& body, const BodyPhysics& physics, const std::str
 }
 
 void require_surface_loads(const Body& body, const BodyPhysics& physics, const std::string& name) {
-    if (physics.loads != Loads::surface) return;
-    if (!body.surface_loads) {
-        throw Error(
-            fmt::format("body '{}': loads = \"surface\", but its file holds no surface loads; add them "
-                        "with 'samara kirchhoff FILE -o FILE', or set loads otherwise",
-                        name));
-    }
-    if (physics.turbulence != Turbulence::table) return;
-    throw Error(fmt::format(
-        "body '{}': turbulence = \"table\" needs loads = \"table\"; surface loads have no turbulence", name));
+    if (physics.loads != Loads::surface || body.surface_loads) return;
+    throw Error(
+        fmt::format("body '{}': loads = \"surface\", but its file holds no surface loads; add them "
+                    "with 'samara kirchhoff FILE -o FILE', or set loads otherwise",
+                    name));
 }
 
 /// Returns the tables that the steps read: those of the body file, or those made of its surface loads.
 std::optional<LoadTables> tables_of(const Body& body, const BodyPhysics& physics, double length) {
     std::optional<LoadTables> tables;
     if (physics.loads == Loads::surface) tables = as_tables(*body.surface_loads, length);
-    if (physics.loads == Loads::table || physics.turbulence == Turbulence::table) tables = body.tables;
+    if (uses_body_tables(physics.loads, physics.turbulence)) tables = body.tables;
     if (!tables || !physics.table_reynolds_number) return tables;
     return at_reynolds_number(*tables, *physics.table_reynolds_number);
 }
@@ -125,7 +119,8 @@ DynamicCoefficients dynamic_coefficients_of(const Body& body, const BodyPhysics&
 
 /// Returns ImmersedBody::roll_drag.
 Matrix3d roll_drag_of(const Body& body, const BodyPhysics& physics) {
-    if (physics.loads != Loads::table || physics.dynamic == Dynamic::none) return Matrix3d::Zero();
+    const bool is_steady = physics.loads == Loads::table || physics.loads == Loads::surface;
+    if (!is_steady || physics.dynamic == Dynamic::none) return Matrix3d::Zero();
     return usual_rotational_drag * rotational_drag_tensor(body.surface, body.moments.centroid);
 }
 
@@ -312,7 +307,7 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
         throw Error(fmt::format("body '{}': {}", name, error));
     }
     if (body.kirchhoff && physics.added_mass) checks.finite(body.kirchhoff->matrix, "kirchhoff.matrix");
-    if (body.tables && (physics.loads == Loads::table || physics.turbulence == Turbulence::table)) {
+    if (body.tables && uses_body_tables(physics.loads, physics.turbulence)) {
         check_tables(checks, *body.tables);
     }
     check_coefficients(checks, physics.coefficients);

@@ -7,6 +7,7 @@
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/body/surface_loads.hpp"
 #include "samara/core/surface/octahedral_map.hpp"
+#include "samara/core/surface/silhouette.hpp"
 #include "samara/core/surface/surface_patches.hpp"
 
 namespace samara {
@@ -76,11 +77,13 @@ void set_what_is_left(const std::vector<SurfacePatch>& cut, DividedSurface& divi
 /// Returns the pressure's force on each patch in a steady translation along the direction, in units of rho
 /// U^2 A / 2.
 std::vector<Vector3d> pushes(const std::vector<SurfacePatch>& cut,
-                             const std::vector<SurfaceElement>& elements, const Vector3d& direction) {
+                             const std::vector<SurfaceElement>& elements, const Vector3d& direction,
+                             const Silhouette& silhouette) {
+    const SeparatedPressure separated = separated_pressure(silhouette);
     std::vector<double> pressures;
     pressures.reserve(elements.size());
     for (const SurfaceElement& element : elements) {
-        pressures.push_back(pressure_on(element, direction, SurfacePressure{}));
+        pressures.push_back(pressure_on(element, direction, separated));
     }
     std::vector<Vector3d> forces(cut.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < cut.size(); ++i) {
@@ -110,17 +113,20 @@ std::vector<Vector3d> departures(const std::vector<SteadyPatch>& patches, std::v
 void set_forces(const std::vector<SurfacePatch>& cut, const SurfaceLoads& loads, const LoadTables& tables,
                 std::vector<SteadyPatch>& patches) {
     const std::vector<SurfaceElement> elements = surface_elements(loads);
-    const std::vector<Vector3d> nodes = octahedral_nodes(tables.subdivisions);
+    std::vector<Vector3d> directions;
+    for (const Vector3d& node : octahedral_nodes(tables.subdivisions))
+        directions.push_back(tables.axes * node);
+    const std::vector<Silhouette> seen = silhouettes(loads.surface, directions);
     for (SteadyPatch& patch : patches) patch.force.resize(tables.entries.size());
-    for (std::size_t node = 0; node < nodes.size(); ++node) {
-        const Vector3d direction = tables.axes * nodes[node];
+    for (std::size_t node = 0; node < directions.size(); ++node) {
+        const Vector3d& direction = directions[node];
         double drag = -tables.entries[node].force.dot(direction);
-        for (std::size_t at = node; at < tables.entries.size(); at += nodes.size()) {
+        for (std::size_t at = node; at < tables.entries.size(); at += directions.size()) {
             drag = std::min(drag, -tables.entries[at].force.dot(direction));
         }
         const std::vector<Vector3d> departing =
-            departures(patches, pushes(cut, elements, direction), direction, drag);
-        for (std::size_t at = node; at < tables.entries.size(); at += nodes.size()) {
+            departures(patches, pushes(cut, elements, direction, seen[node]), direction, drag);
+        for (std::size_t at = node; at < tables.entries.size(); at += directions.size()) {
             for (std::size_t i = 0; i < patches.size(); ++i) {
                 patches[i].force[at] = patches[i].share * tables.entries[at].force + departing[i];
             }

@@ -135,6 +135,7 @@ Matrix3d directed(const Matrix3d& tensor) {
 void set_transport(const ImmersedBody& body, double mass, double length, StepConstants& c) {
     const Matrix3d transport = body.fluid_density / mass * body.dynamic.transport;
     c.isotropic_transport = transport.trace() / 3.0;
+    c.spin_lift_onset = body.dynamic.spin_lift_onset;
     c.directed_transport = symmetric(directed(transport));
     const double share = body.dynamic.rotational_transport / mass;
     c.transports_rotation = share != 0.0;
@@ -170,6 +171,7 @@ void set_loads(const ImmersedBody& body, StepConstants& c) {
     c.has_spin = !dynamic.drag_in_spin.isZero(0.0) || !dynamic.rotational_drag_in_spin.isZero(0.0);
     c.drag_in_spin = symmetric(half_density * length / mass * dynamic.drag_in_spin);
     c.rotational_drag = symmetric(half_density / (mass * length) * dynamic.rotational_drag);
+    c.laminar_rotation = dynamic.laminar_rotational_drag * std::sqrt(1000.0 / c.reynolds_factor);
     const Matrix3d lacking = lacking_roll_drag(body);
     c.has_roll_drag = !lacking.isZero(0.0);
     c.lacking_roll_drag = symmetric(half_density / (mass * length) * lacking);

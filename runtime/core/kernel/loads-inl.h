@@ -151,6 +151,12 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
     blocks.force_by_rotation = blocks.force_by_rotation + outer(velocity, moment_along_force);
 }
 
+/// Returns a / (a + b), and 0 where both are zero.
+template <class V>
+HWY_INLINE V share_of(V a, V b) {
+    return a / larger(V(tiny), a + b);
+}
+
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks: it does
 /// no work. It acts on the rotation of the body's axes themselves, since these momenta belong to the
 /// equations' left side. `omega`: the body's own. `share`: of the wake that has formed; without a wake the
@@ -160,7 +166,13 @@ HWY_INLINE void add_transport(const StepConstants& c, const Triple<V>& omega, co
                               V share, LoadBlocks<V>& blocks) {
     // The isotropic part of T acts as a force alone, and as the steady force from the first: its moment v x v
     // is zero, and must stay so where D acts on another v than the one it was made with.
-    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -V(c.isotropic_transport) * omega);
+    V spin_lift(c.isotropic_transport);
+    if (c.spin_lift_onset > 0.0) {
+        const V speed_square = dot(velocity, velocity);
+        const V tip_square = V(c.half_length * c.half_length) * dot(omega, omega);
+        spin_lift = spin_lift * share_of(speed_square, V(c.spin_lift_onset) * tip_square);
+    }
+    blocks.force_by_velocity = plus_cross(blocks.force_by_velocity, -spin_lift * omega);
     Triple<V> momentum = broadcast_symmetric<V>(c.directed_transport) * velocity;
     if (c.transports_rotation) {
         const Square<V> coupling = broadcast<V>(c.coupling_transport);
@@ -190,12 +202,6 @@ HWY_INLINE V combined_speed(const StepConstants& c, const Triple<V>& omega, cons
     return root(dot(velocity, velocity) + V(c.half_length * c.half_length) * dot(omega, omega));
 }
 
-/// Returns a / (a + b), and 0 where both are zero.
-template <class V>
-HWY_INLINE V share_of(V a, V b) {
-    return a / larger(V(tiny), a + b);
-}
-
 /// Adds the part of the rotational drag about the direction of motion that falls lack
 /// (docs/explanation/moving-loads.md).
 template <class V>
@@ -220,17 +226,20 @@ HWY_INLINE LoadBlocks<V> relative_load_blocks(const StepConstants& c, const Trip
     const V combined = combined_speed(c, omega, velocity);
 
     // The steady moment stays until the body does little but rotate: a steady translation keeps it whole.
+    const V motion = share_of(tip_square, V(motion_onset) * speed_square);
     const PressurePoint<V> point =
         pressure_point(c, velocity, heading, share * share_of(speed_square, V(motion_onset) * tip_square));
     LoadBlocks<V> blocks = steady_blocks(c, omega, velocity, point.arm);
     add_windmill(point.moment_along_force, velocity, blocks);
 
-    const V in_motion = combined * share_of(tip_square, V(motion_onset) * speed_square);
+    const V in_motion = combined * motion;
     const V creeping_drag =
         V(c.creeping_drag) *
         larger(V(0.0), V(1.0) - V(c.reynolds_factor) * heading.speed * V(c.creeping_fades));
+    V rotating = combined;
+    if (c.laminar_rotation > 0.0) rotating = rotating + V(c.laminar_rotation) * root(combined);
     blocks.moment_by_rotation =
-        plus_diagonal(blocks.moment_by_rotation + combined * broadcast_symmetric<V>(c.rotational_drag),
+        plus_diagonal(blocks.moment_by_rotation + rotating * broadcast_symmetric<V>(c.rotational_drag),
                       V(c.creeping_rotation));
     blocks.force_by_velocity = plus_diagonal(
         blocks.force_by_velocity + in_motion * broadcast_symmetric<V>(c.drag_in_motion), creeping_drag);

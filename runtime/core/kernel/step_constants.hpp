@@ -91,14 +91,17 @@ struct StepConstants {
     Square<double> potential_transport{};  ///< rho_f (M - T) / m* over steady_factor, less its isotropic part
     Square<double> directed_transport{};   ///< rho_f T / m* less its isotropic part
     double isotropic_transport = 0;        ///< a third of the trace of rho_f T / m*
+    double spin_lift_onset = 0;            ///< b of the isotropic part
     bool transports_rotation = false;      ///< whether the next two are not zero
     Square<double> transport_of_rotation{};  ///< t rho_f J / (m* l^2)
     Square<double> coupling_transport{};     ///< t rho_f C / (m* l)
     Square<double> drag_in_motion{};         ///< rho_f l C_m A / (2 m*)
     Square<double> rotational_drag{};        ///< rho_f C_w D / (2 m* l)
-    bool has_roll_drag = false;              ///< whether the next is not zero
-    Square<double> lacking_roll_drag{};      ///< rho_f R / (2 m* l)
-    bool has_side_pressure = false;          ///< whether the next is not zero: of a wake that fluctuates
+    /// a sqrt(1000/reynolds_factor): times the root of the combined speed, the laminar part of the last
+    double laminar_rotation = 0;
+    bool has_roll_drag = false;          ///< whether the next is not zero
+    Square<double> lacking_roll_drag{};  ///< rho_f R / (2 m* l)
+    bool has_side_pressure = false;      ///< whether the next is not zero: of a wake that fluctuates
     Square<double> side_pressure{};  ///< wake_side_pressure S/A steady_factor, S the projected areas (m^2)
     bool has_spin = false;           ///< whether the next two are not zero
     Square<double> drag_in_spin{};   ///< rho_f l C_s A / (2 m*)

@@ -12,7 +12,7 @@ namespace samara {
 /// The source of the loads of a steady translation: none, drag and lift coefficients, the body's tables, or
 /// the pressure of the potential flow over its surface (docs/explanation/loads-without-a-bake.md).
 enum class Loads { none, coefficients, table, surface };
-/// The source of the turbulence around a body: none, constants, or the body's tables.
+/// The source of the turbulence around a body: none, constants, or the tables that its loads are of.
 enum class Turbulence { none, constant, table };
 /// The variable of the Langevin equation: the fluctuating fluid around the body, as one stream; the body
 /// itself (the paper's eq. 8); or the fluctuation of the relative velocity by which the body's own wake makes
@@ -31,6 +31,17 @@ constexpr const char* name_of(Loads loads) {
 }
 constexpr const char* name_of(Turbulence turbulence) {
     return names_of_turbulence[static_cast<std::size_t>(turbulence)];
+}
+
+/// Returns whether loads or turbulence are those of the body file's tables. Loads of the surface have a
+/// turbulence of their own.
+constexpr bool uses_body_tables(Loads loads, Turbulence turbulence) {
+    return loads == Loads::table || (turbulence == Turbulence::table && loads != Loads::surface);
+}
+
+/// Returns the turbulence that goes with loads where nothing else is chosen: the wake's where they know it.
+constexpr Turbulence usual_turbulence(Loads loads) {
+    return loads == Loads::table || loads == Loads::surface ? Turbulence::table : Turbulence::none;
 }
 
 /// Coefficients of drag and lift (the paper's eq. 5); what is absent is taken from the body
@@ -57,7 +68,7 @@ struct BodyPhysics {
     int patches = 1;                     ///< of the surface, each of which bears loads by its own velocity
     bool added_mass = true;              ///< whether the fluid's inertia is part of the body's
     Dynamic dynamic = Dynamic::of_body;  ///< whether the body's dynamic coefficients count
-    Turbulence turbulence = Turbulence::table;  ///< default: table where the loads are, else none
+    Turbulence turbulence = Turbulence::table;  ///< default: usual_turbulence()
     double turbulent_kinetic_energy = 0.0;      ///< m^2/s^2, where turbulence is constant
     double dissipation_rate = 0.0;              ///< m^2/s^3, where turbulence is constant
     Langevin langevin = Langevin::wake;         ///< what the noise drives

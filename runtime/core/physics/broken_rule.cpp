@@ -79,7 +79,6 @@ Broken broken_rule(const BodyPhysics& physics) {
     const auto& normal = coefficients.normal;
     const double energy = physics.turbulent_kinetic_energy;
     const double dissipation = physics.dissipation_rate;
-    const bool stirs_by_table = physics.turbulence == Turbulence::table;
     return first_of(
         {broken_rule(physics.mass),
          outside(non_negative_number, "drag_coefficient", coefficients.drag_coefficient),
@@ -90,12 +89,9 @@ Broken broken_rule(const BodyPhysics& physics) {
          outside(non_negative_number, "dissipation_rate", dissipation),
          broken_if(physics.turbulence == Turbulence::constant && (energy > 0.0) != (dissipation > 0.0),
                    "dissipation_rate", "and turbulent_kinetic_energy must be both zero or both above zero"),
-         broken_if(physics.loads == Loads::surface && stirs_by_table, "turbulence",
-                   R"(needs loads by table; set loads = "table", or )"
-                   R"(turbulence to "none" or "constant")"),
          outside(positive_number, "table_reynolds_number", physics.table_reynolds_number),
          broken_if(
-             physics.table_reynolds_number && physics.loads != Loads::table && !stirs_by_table,
+             physics.table_reynolds_number && !uses_body_tables(physics.loads, physics.turbulence),
              "table_reynolds_number",
              "applies only to loads or turbulence by table; remove it or set one of them to \"table\"")});
 }

@@ -338,6 +338,22 @@ TEST(IdentificationFalls, AreTwoAtStandardAndAtHighOnAMeshOfTheirOwn) {
     EXPECT_GT((high.falls[0].gravity - high.falls[1].gravity).norm(), 0.3 * high.falls[0].gravity.norm());
 }
 
+TEST(IdentificationFalls, AreNoneOfABodyThatHasNoTimeToReachItsSpeed) {
+    const Body body = test::ellipsoid({0.01, 0.02, 0.04});
+    const auto falls_of = [&](double density) {
+        std::vector<MassSpecification> masses(2);
+        masses[0].density = 1200.0;
+        masses[1].density = density;
+        BakePlan plan = plan_bake(body, bake_quality("standard"), 1e4);
+        add_falls(body, water, masses, 9.81, plan);
+        return plan.falls.size();
+    };
+    EXPECT_EQ(falls_of(20e3), 2u);
+    EXPECT_EQ(falls_of(1e6), 0u);
+    EXPECT_TRUE(has_time_to_fall(1.0, 0.1, 9.81));
+    EXPECT_FALSE(has_time_to_fall(20.0, 0.1, 9.81));
+}
+
 TEST(IdentificationFalls, OfTwoDensitiesHaveThemInTurnEachInItsOwnTime) {
     const Body body = test::ellipsoid({0.01, 0.02, 0.04});
     std::vector<MassSpecification> masses(2);

@@ -93,7 +93,7 @@ TEST(KirchhoffCommand, WritesTheLoadsOfTheSurfaceByWhichABodyWithoutTablesFalls)
     ASSERT_EQ(by_default.status, 0) << by_default.error;
     EXPECT_THAT(by_default.error, HasSubstr("has no tables; its loads are estimated from"));
     EXPECT_THAT(by_default.json()["bodies"][0]["models"].get<std::string>(),
-                StartsWith("loads surface; turbulence none"));
+                StartsWith("loads surface; turbulence table (wake)"));
     const test::ProgramRun asked = flown("loads = \"surface\"\n");
     ASSERT_EQ(asked.status, 0) << asked.error;
     EXPECT_THAT(asked.error, Not(HasSubstr("has no tables")));

@@ -68,9 +68,8 @@ TEST(UnitPotentials, MoveTheFluidThatTheTensorSays) {
 TEST(SurfaceLoads, OfASphereAreOneDragInAllDirections) {
     const SurfaceLoads loads = loads_of(test::icosphere(3));
     const double drag = drag_over(pi / 4.0, loads, {1.0, 2.0, 3.0});
-    // Measured between Reynolds numbers of 1e3 and 1e5: 0.38 to 0.5 (Brown and Lawler 2003).
-    EXPECT_GT(drag, 0.38);
-    EXPECT_LT(drag, 0.70);
+    // Measured at the Reynolds number 1e5: 0.49, of which friction is 0.01 (Brown and Lawler 2003).
+    EXPECT_NEAR(drag, 0.48, 0.03);
     for (const PressureLoads& load : pressure_loads(loads, subdivisions)) {
         EXPECT_NEAR(load.force.norm(), drag, 0.02 * drag);
         EXPECT_LT(load.moment.norm(), 0.002);
@@ -81,8 +80,8 @@ TEST(SurfaceLoads, OfAPlateBroadsideAreThoseOfABluntBody) {
     const Surface plate = test::box({1.0, 1.0, 0.05}, 10);
     const double length = reference_length(test::moments_of(plate).surface_area);
     const double drag = drag_over(1.0 / (length * length), loads_of(plate), Vector3d::UnitZ());
-    // Measured: 1.1 to 1.2 (Hoerner, Fluid-Dynamic Drag, 3-15); the estimate is a tenth low.
-    EXPECT_GT(drag, 0.9);
+    // Measured: 1.1 to 1.2 (Hoerner, Fluid-Dynamic Drag, 3-15).
+    EXPECT_GT(drag, 1.05);
     EXPECT_LT(drag, 1.25);
 }
 
@@ -144,18 +143,31 @@ TEST(SurfaceLoads, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(SurfaceLoads, AsTablesHaveBlasiusFriction) {
-    const Surface sphere = test::icosphere(3);
-    const SurfaceLoads loads = loads_of(sphere);
-    const double length = reference_length(test::moments_of(sphere).surface_area);
-    const LoadTables tables = as_tables(loads, length);
+    // Behind sharp edges the pressure is the same at all Reynolds numbers.
+    const Surface cube = test::box({1.0, 1.0, 1.0}, 6);
+    const double length = reference_length(test::moments_of(cube).surface_area);
+    const LoadTables tables = as_tables(loads_of(cube), length);
     EXPECT_EQ(tables.reference_length, length);
     const auto drag_at = [&](double reynolds_number) {
         return -look_up(tables, Vector3d::UnitX(), reynolds_number).force.x();
     };
-    // Two thirds of the surface, 4 A, lie along the flow.
-    const double rubbed = 4.0 * 2.0 / 3.0 * 1.33;
-    EXPECT_NEAR(drag_at(1e2) - drag_at(1e4), rubbed * (0.1 - 0.01), 0.02 * rubbed * 0.1);
+    // Four of six faces lie along the flow; the surface is 4 A.
+    const double rubbed = 4.0 * 4.0 / 6.0 * 1.33;
+    EXPECT_NEAR(drag_at(1e2) - drag_at(1e4), rubbed * (0.1 - 0.01), 1e-9);
     for (const LoadEntryError& error : tables.errors) EXPECT_GT(error.force.minCoeff(), 0.0);
+}
+
+TEST(SurfaceLoads, AsTablesHaveAWakesTurbulenceFromAReynoldsNumberOfAHundredOn) {
+    const LoadTables tables = as_tables(loads_of(test::icosphere(2)), 1.0);
+    const SurfaceWake wake;
+    for (const double reynolds_number : {1.0, 30.0, 100.0}) {
+        EXPECT_EQ(look_up(tables, Vector3d::UnitX(), reynolds_number).turbulent_kinetic_energy, 0.0);
+    }
+    for (const double reynolds_number : {1e3, 1e4, 1e5}) {
+        const LoadEntry entry = look_up(tables, Vector3d::UnitX(), reynolds_number);
+        EXPECT_NEAR(entry.turbulent_kinetic_energy, wake.turbulent_kinetic_energy, 1e-12);
+        EXPECT_NEAR(entry.dissipation_rate, 0.65 * entry.turbulent_kinetic_energy, 1e-12);
+    }
 }
 
 TEST(SurfaceLoads, OfASphereAreItsMeasuredDragFromCreepingFlowOn) {
@@ -174,10 +186,11 @@ TEST(SurfaceLoads, OfASphereAreItsMeasuredDragFromCreepingFlowOn) {
     };
     EXPECT_NEAR(drag_over_stokes(1e-3), 1.0, 1e-3);
     // Brown and Lawler, J. Environ. Eng. 129, 222 (2003).
-    for (const double reynolds : {0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
+    for (const double reynolds :
+         {0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 1e2, 3e2, 6e2, 1e3, 3e3, 1e4, 1e5}) {
         const double measured =
             1.0 + 0.15 * std::pow(reynolds, 0.681) + 0.407 / (1.0 + 8710.0 / reynolds) * reynolds / 24.0;
-        EXPECT_NEAR(drag_over_stokes(reynolds) / measured, 1.0, 0.06) << reynolds;
+        EXPECT_NEAR(drag_over_stokes(reynolds) / measured, 1.0, 0.05) << reynolds;
     }
 }
 

@@ -374,10 +374,10 @@ class LongFlights(unittest.TestCase):
 class Bodies(unittest.TestCase):
     def test_a_body_is_simulated_as_its_file_recommends_where_the_scene_does_not_say(self):
         body = samara.Body.read(ROOT / "runtime/bodies/samara.body.h5")
-        self.assertEqual(body.recommended, {"loads": "surface", "patches": 2, "turbulence": "none"})
+        self.assertEqual(body.recommended, {"loads": "surface", "patches": 2, "turbulence": "table"})
         self.assertIsNone(samara.Body.read(ROOT / "runtime/bodies/cube.body.h5").recommended)
         scene = {"scene": {"duration": 0.1}, "fluid": {"preset": "air"}, "body": [{"name": "seed", "shape": "samara:samara"}]}
-        self.assertTrue(samara.simulate(scene)["seed"].models.startswith("loads surface; turbulence none; in 2 patches"))
+        self.assertTrue(samara.simulate(scene)["seed"].models.startswith("loads surface; turbulence table (wake); in 2 patches"))
         scene["body"][0]["loads"] = "table"
         self.assertTrue(samara.simulate(scene)["seed"].models.startswith("loads table; turbulence table (wake); dynamic"))
 

@@ -155,15 +155,15 @@ TEST_F(SceneFile, LoadsOfTheSurfaceAreAskedForOrLeftToWhatTheBodyHolds) {
         return read(with_body("density = 1\n" + keys)).bodies.at(0);
     };
     EXPECT_EQ(body("loads = \"surface\"").loads, Loads::surface);
-    EXPECT_EQ(body("loads = \"surface\"").turbulence, Turbulence::none);
+    EXPECT_EQ(body("loads = \"surface\"").turbulence, Turbulence::table);
     EXPECT_FALSE(body("loads = \"surface\"").open.loads);
     EXPECT_TRUE(body("").open.loads);
     EXPECT_TRUE(body("").open.patches);
     EXPECT_FALSE(body("patches = 1").open.patches);
     EXPECT_TRUE(body("").open.turbulence);
     EXPECT_FALSE(body("turbulence = \"none\"").open.turbulence);
-    EXPECT_THAT(rejection(with_body("density = 1\nloads = \"surface\"\nturbulence = \"table\"")),
-                AllOf(HasSubstr("scene.toml:8: turbulence"), HasSubstr("loads = \"table\"")));
+    EXPECT_THAT(rejection(with_body("density = 1\nloads = \"surface\"\ntable_reynolds_number = 1e4")),
+                AllOf(HasSubstr("scene.toml:8: table_reynolds_number"), HasSubstr("\"table\"")));
 }
 
 TEST_F(SceneFile, ModelsThatAreChosenAreNotGivenToo) {

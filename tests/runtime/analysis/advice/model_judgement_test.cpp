@@ -64,12 +64,12 @@ TEST(ModelJudgement, RecommendsTheModelsThatAreNearestToTheFalls) {
     const RecommendedModels of_surface = judged_by(1.5, 1.1).recommended();
     EXPECT_EQ(of_surface.loads, Loads::surface);
     EXPECT_EQ(of_surface.patches, 2);
-    EXPECT_EQ(of_surface.turbulence, Turbulence::none);
+    EXPECT_EQ(of_surface.turbulence, Turbulence::table);
     EXPECT_THAT(of_surface.origin, HasSubstr("2 falls"));
     EXPECT_EQ(judged_by(1.1, 1.5).recommended().loads, Loads::table);
     // Where none is better by a third the first stays, which is the simplest.
     EXPECT_EQ(judged_by(1.100, 1.080).recommended().loads, Loads::table);
-    EXPECT_THAT(as_text(judged_by(1.5, 1.1)), HasSubstr("loads surface, 2 patches, turbulence none"));
+    EXPECT_THAT(as_text(judged_by(1.5, 1.1)), HasSubstr("loads surface, 2 patches, turbulence table"));
 }
 
 TEST(ModelJudgement, NeedsTablesOrSurfaceLoads) {

@@ -50,7 +50,7 @@ TEST(RecommendedModels, WithoutThemTablesComeBeforeTheLoadsOfTheSurface) {
     const BodyPhysics of_its_surface = chosen(body, all_open);
     EXPECT_EQ(of_its_surface.loads, Loads::surface);
     EXPECT_EQ(of_its_surface.patches, 1);
-    EXPECT_EQ(of_its_surface.turbulence, Turbulence::none);
+    EXPECT_EQ(of_its_surface.turbulence, Turbulence::table);
     body.surface_loads.reset();
     EXPECT_EQ(chosen(body, all_open).loads, Loads::table);  // whose lack is then an error
 }
@@ -63,8 +63,9 @@ TEST(RecommendedModels, LeaveWhatIsChosenAndWhatThatNeeds) {
     BodyPhysics four;
     four.patches = 4;
     EXPECT_EQ(chosen(body, {.loads = true, .turbulence = true}, four).patches, 4);
-    // Turbulence of the table and a Reynolds number of it are had by table loads alone.
-    EXPECT_EQ(chosen(body, {.loads = true, .patches = true}).loads, Loads::table);
+    // Both have turbulence; a Reynolds number of the table is had by table loads alone.
+    EXPECT_EQ(chosen(body, {.loads = true, .patches = true}).loads, Loads::surface);
+    EXPECT_EQ(chosen(body, {.loads = true, .patches = true}).turbulence, Turbulence::table);
     BodyPhysics at_one;
     at_one.table_reynolds_number = 1e4;
     EXPECT_EQ(chosen(body, all_open, at_one).loads, Loads::table);
@@ -87,7 +88,6 @@ TEST(RecommendedModels, ThatNoBodyCanHaveAreRejected) {
              {{.loads = Loads::none, .turbulence = Turbulence::none}, "neither of tables nor of the surface"},
              {{.patches = 0}, "0 patches"},
              {{.patches = 33}, "33 patches"},
-             {{.loads = Loads::surface}, "turbulence that its loads do not have"},
              {{.turbulence = Turbulence::constant}, "turbulence that its loads do not have"}}) {
         EXPECT_THAT(error_of(models), HasSubstr(words));
         Body body = body_with_tables();

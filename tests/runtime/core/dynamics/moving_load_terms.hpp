@@ -73,7 +73,10 @@ struct Motion {
 inline Vector6d transport(const Motion& m) {
     const double rho = m.body.fluid_density;
     const Vector3d momentum = m.body.dynamic.transport * m.v;
-    return rho * motion_of(m.v.cross(momentum), m.omega.cross(momentum));
+    const double stalled = m.body.dynamic.spin_lift_onset * m.tip * m.tip;
+    const double lost =
+        m.body.dynamic.transport.trace() / 3.0 * stalled / std::max(m.v.squaredNorm() + stalled, 1e-300);
+    return rho * motion_of(m.v.cross(momentum), m.omega.cross(momentum - lost * m.v));
 }
 inline Vector6d rotational_transport(const Motion& m) {
     const Vector3d momentum = m.body.added_coupling.transpose() * m.omega;
@@ -97,8 +100,11 @@ inline Vector6d rotational_drag_in_spin(const Motion& m) {
                      Vector3d::Zero());
 }
 inline Vector6d rotational_drag(const Motion& m) {
-    return motion_of(-0.5 * m.body.fluid_density * m.combined * m.body.dynamic.rotational_drag * m.omega,
-                     Vector3d::Zero());
+    const double reynolds = m.combined * m.body.length * m.body.fluid_density / m.body.viscosity;
+    const double laminar = m.body.dynamic.laminar_rotational_drag * std::sqrt(1000.0 / reynolds);
+    return motion_of(
+        -0.5 * m.body.fluid_density * m.combined * (1.0 + laminar) * m.body.dynamic.rotational_drag * m.omega,
+        Vector3d::Zero());
 }
 inline Vector6d creeping_turn(const Motion& m) {
     return motion_of(-std::numbers::pi * m.body.viscosity * std::pow(m.body.length, 3) * m.omega,
@@ -128,7 +134,8 @@ inline Vector6d static_table(const Motion& m) {
     Vector3d moment = steady_moment - left.cross(m.v);
     for (const SteadyPatch& patch : m.body.patches)
         moment -= patch.place.cross(patch_force(m.body, patch, m.v));
-    const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * m.tip * m.tip);
+    const double tip = m.tip * m.tip;
+    const double share = m.v.squaredNorm() / (m.v.squaredNorm() + motion_onset * tip);
     const Vector3d arm = share * force.cross(moment) / force.squaredNorm();
     const Vector3d along = share * moment.dot(force) / force.squaredNorm() * force;
     Vector6d static_part = motion_of(along, -along.dot(m.omega) / m.v.squaredNorm() * m.v);

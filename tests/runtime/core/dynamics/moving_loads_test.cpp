@@ -112,8 +112,17 @@ ImmersedBody patched_body(int patches) {
     return make_immersed_body(test::lopsided_shape(), given, Fluid{});
 }
 
+/// The lopsided body with the numbers that only loads of the surface have.
+ImmersedBody body_of_surface_numbers() {
+    ImmersedBody body = test::lopsided_body();
+    body.dynamic.laminar_rotational_drag = 1.3;
+    body.dynamic.spin_lift_onset = 1.7;
+    prepare(body);
+    return body;
+}
+
 TEST(MovingLoads, TogetherAreTheirTermsAndTheStaticTableOfEachPatch) {
-    for (const ImmersedBody& body : {test::lopsided_body(), patched_body(5)}) {
+    for (const ImmersedBody& body : {test::lopsided_body(), patched_body(5), body_of_surface_numbers()}) {
         std::mt19937 generator(3);
         for (int i = 0; i < 500; ++i) {
             const Vector6d motion = random_motion(generator, i);
@@ -180,7 +189,7 @@ TEST(MovingLoads, LeaveASteadyTranslationAsItIsTabulatedTimesTheUnsteadyFactorWh
 
 /// The lopsided body with parts left out, as a scene does that.
 std::vector<ImmersedBody> lesser_bodies() {
-    std::vector<ImmersedBody> bodies;
+    std::vector<ImmersedBody> bodies = {body_of_surface_numbers()};
     for (const bool added_mass : {true, false}) {
         for (const Dynamic dynamic : {Dynamic::of_body, Dynamic::by_default, Dynamic::none}) {
             for (const std::optional<double> reynolds : {std::optional<double>(), std::optional(1e4)}) {

@@ -104,12 +104,10 @@ TEST(RollDrag, NeverMakesEnergy) {
 TEST(RollDrag, IsNoneOfBodiesWithoutCoefficientsOfFalls) {
     Body shape = lopsided_shape();
     shape.dynamic.reset();
-    SceneBody by_surface = scene_body(1200.0);
-    by_surface.loads = Loads::surface;
     SceneBody without = scene_body(1200.0);
     without.dynamic = Dynamic::none;
     std::mt19937 generator(5);
-    for (const SceneBody& given : {scene_body(1200.0), by_surface, without}) {
+    for (const SceneBody& given : {scene_body(1200.0), without}) {
         const ImmersedBody body = make_immersed_body(shape, given, Fluid{});
         for (int i = 0; i < 20; ++i) {
             EXPECT_TRUE(added_by_roll_drag(body, random_motion(generator, i)).isZero(0.0));

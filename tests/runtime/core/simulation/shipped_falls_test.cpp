@@ -34,8 +34,8 @@ constexpr ShippedFall falls[] = {
     {"studies/falls/disc-light", "disc", Regime::fluttering, 0.201, 0.5824, 2.549},
     {"studies/falls/disc-heavy", "disc", Regime::tumbling, 0.7003, 1.977, 12.59},
     {"studies/falls/sheet", "sheet", Regime::chaotic, 0.6914, 1.907, 11.26},
-    {"studies/falls/samara", "samara", Regime::autorotating, 1.332, {}, 107.5},
-    {"scenes/samara", "samara", Regime::autorotating, 1.016, {}, 116.2},
+    {"studies/falls/samara", "samara", Regime::autorotating, 1.207, {}, 117.8},
+    {"scenes/samara", "samara", Regime::autorotating, 0.976, {}, 118.2},
 };
 
 BodyMeasures flown(const ShippedFall& fall) {
