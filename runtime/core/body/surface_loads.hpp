@@ -14,13 +14,12 @@ struct Silhouette;
 /// The constants of the pressure, which all bodies share, in units of rho U^2 / 2: chosen on steady loads by
 /// CFD (docs/explanation/loads-without-a-bake.md).
 struct SurfacePressure {
-    /// Behind bodies whose silhouette is smooth, and behind those whose silhouette runs along sharp edges.
-    /// The first is that of a sphere at the Reynolds number 1e5; tables have a sphere's at each of theirs.
+    /// Behind bodies whose silhouette is smooth: of a sphere at the Reynolds number 1e5. Tables have a
+    /// sphere's at each of theirs.
     double smooth_base = -0.51;
-    double edge_base = -0.76;
-    /// The least pressure of faces that face the flow, likewise.
-    double smooth_floor = -0.68;
-    double edge_floor = -0.17;
+    double edge_base = -0.76;     ///< behind bodies whose silhouette runs along sharp edges
+    double smooth_floor = -0.68;  ///< the least of faces that face the flow, of a smooth silhouette
+    double edge_floor = -0.17;    ///< likewise, of one along sharp edges
     /// The share of the base pressure that the flow recovers behind sharp edges of a body without end.
     double recovery = 0.43;
 };
