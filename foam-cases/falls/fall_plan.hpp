@@ -51,8 +51,9 @@ inline constexpr double identification_fall_duration = 30.0;
 /// for each `index`, so that all motions occur.
 BodyState identification_start(const Body& body, int index);
 
-/// Returns whether a body of that terminal speed (m/s) and reference length (m), let go from rest, reaches a
-/// tenth of the speed in such a fall. Else the fall shows nothing of its loads in motion.
+/// Returns whether a body of that terminal speed (m/s) and reference length (m), let go from rest under a
+/// gravity of that magnitude (m/s^2), can reach a tenth of the speed in such a fall. Else the fall shows
+/// nothing of its loads in motion.
 bool has_time_to_fall(double speed, double length, double gravity);
 
 /// Adds the quality's falls and their estimated cost to a plan: of the body in the fluid, under a gravity of

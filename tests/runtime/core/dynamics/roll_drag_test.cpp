@@ -101,6 +101,14 @@ TEST(RollDrag, NeverMakesEnergy) {
     }
 }
 
+TEST(RollDrag, IsThereByTheLoadsOfTheSurfaceToo) {
+    SceneBody by_surface = scene_body(1200.0);
+    by_surface.loads = Loads::surface;
+    const ImmersedBody body = make_immersed_body(lopsided_shape(), by_surface, Fluid{});
+    const Vector6d rolling = motion_of(Vector3d(0.0, 0.0, 20.0), Vector3d(0.0, 0.0, 0.2));
+    EXPECT_LT(rolling.dot(added_by_roll_drag(body, rolling)), 0.0);
+}
+
 TEST(RollDrag, IsNoneOfBodiesWithoutCoefficientsOfFalls) {
     Body shape = lopsided_shape();
     shape.dynamic.reset();
