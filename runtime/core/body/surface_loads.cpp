@@ -113,7 +113,7 @@ LoadTables as_tables(const SurfaceLoads& loads, double length, const SurfacePres
     LoadTables tables;
     tables.reference_length = length;
     tables.subdivisions = subdivisions;
-    for (const SmoothWake& wake : smooth_wakes) tables.reynolds_numbers.push_back(wake.reynolds_number);
+    for (const SmoothWake& smooth : smooth_wakes) tables.reynolds_numbers.push_back(smooth.reynolds_number);
     tables.stokes_throughout = true;
     // Matrices that, times direction and friction coefficient, are the force of friction on the surface and
     // its moment.

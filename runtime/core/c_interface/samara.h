@@ -151,8 +151,7 @@ enum {
     SAMARA_TURBULENCE_NONE = 0,
     SAMARA_TURBULENCE_CONSTANT = 1,
     SAMARA_TURBULENCE_TABLE = 2,
-    SAMARA_TURBULENCE_AS_LOADS =
-        3 /* as the body file recommends, or the wake's with table and surface loads */
+    SAMARA_TURBULENCE_AS_LOADS = 3 /* as the file recommends, or noise with table and surface loads */
 };
 enum {
     SAMARA_LANGEVIN_SEEN_FLUID = 0,

@@ -94,7 +94,7 @@ class CStructsTest(unittest.TestCase):
 
     def test_the_add_on_has_the_constants_of_the_header(self):
         library = module("runtime", "blender", "samara_addon", "samara_library.py")
-        declared = dict(re.findall(r"SAMARA_((?:LOADS|TURBULENCE)_\w+) = (\d+)", header()))
+        declared = dict(re.findall(r"SAMARA_((?:LOADS|TURBULENCE)_\w+) =\s+(\d+)", header()))
         written = {name: value for name, value in vars(library).items() if re.match("LOADS_|TURBULENCE_", name)}
         self.assertGreaterEqual(len(written), 5)
         for name, value in written.items():
