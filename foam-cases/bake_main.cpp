@@ -13,6 +13,7 @@
 #include "foam-cases/bake/bake_report.hpp"
 #include "foam-cases/farm/case_farm.hpp"
 #include "samara/commands/shared/arguments.hpp"
+#include "samara/commands/shared/load_body.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"
@@ -30,7 +31,7 @@ struct BakeOptions {
     std::string fluid = "water";
     double density = 1200.0;
     double other_density = 0.0;
-    double scale = 1.0;
+    ShapeReading reading;
     int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 1024);
     int ranks = 1;
     std::string cluster;
@@ -107,7 +108,7 @@ BakeRequest request_for_shape(const BakeOptions& options, const Arguments& argum
     }
     BakeRequest request;
     request.shape = options.input;
-    request.scale = options.scale;
+    request.reading = options.reading;
     request.output = options.output;
     request.fluid = *fluid_preset(options.fluid);
     // A body file may have its own mass.
@@ -241,7 +242,8 @@ int run(int argc, const char* const* argv) {
                      "solves falls at --density and at this density alternately, and the tables for the "
                      "faster of the two: one body file for all densities in between",
                      1e-3, 1e6);
-    arguments.option("--scale", options.scale, "size of the shape file's unit, m", 1e-12, 1e12);
+    arguments.option("--scale", options.reading.scale, "size of the shape file's unit, m", 1e-12, 1e12);
+    arguments.option("--thickness", options.reading.thickness, thickness_help, 0.0, 1e12);
     arguments.option("--jobs", options.jobs, "cases solved in parallel", 1, 4096);
     arguments.option("--ranks", options.ranks,
                      "MPI processes for each case, for cases too large for one core; by default fewer cases "

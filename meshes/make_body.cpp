@@ -10,6 +10,7 @@
 #include "meshes/checks/sound_surface.hpp"
 #include "meshes/reading/gmsh_session.hpp"
 #include "meshes/reading/shape_reader.hpp"
+#include "meshes/reading/thickened_sheet.hpp"
 #include "meshes/remeshing/remesh.hpp"
 #include "meshes/symmetry/image_comparison.hpp"
 #include "meshes/symmetry/symmetry.hpp"
@@ -29,6 +30,8 @@ void require_sane(const MeshOptions& options, const std::string& label) {
         if (!sane) throw Error(fmt::format("{}: {}", label, what));
     };
     require(std::isfinite(options.scale) && options.scale > 0.0, "the scale must be positive");
+    require(std::isfinite(options.thickness) && options.thickness >= 0.0,
+            "the thickness must be zero or positive");
     require(options.order == automatic_order || options.order == 1 || options.order == 2,
             "the order must be 1 or 2");
     require(options.sizing != MeshOptions::Sizing::triangles || options.triangles >= 4,
@@ -66,6 +69,9 @@ Surface sound_triangles(const std::filesystem::path& shape, const MeshOptions& o
     if (options.flip) {
         for (std::size_t t = 0; t < surface.triangle_count(); ++t) reverse_triangle(surface, t);
     }
+    if (options.thickness > 0.0) {
+        surface = labelled(label, [&] { return thickened(surface, options.thickness / options.scale); });
+    }
     // Before scaling: errors name places as the file has them.
     surface = labelled(label, [&] { return with_parts_joined(surface); });
     labelled(label, [&] { require_sound_surface(surface); });
@@ -102,6 +108,11 @@ void mesh_exact_geometry(Body& body, const std::filesystem::path& shape, const M
         throw Error(
             fmt::format("{}: exact geometry is always oriented outwards; leave --flip out", shape.string()));
     }
+    if (options.thickness > 0.0) {
+        throw Error(
+            fmt::format("{}: only sheets of triangles can be thickened; export the sheet as .stl or .obj",
+                        shape.string()));
+    }
     MeshedShape meshed =
         mesh_geometry(shape, options, [&](double share) { tell(progress, geometry_meshed * share); });
     body.surface = std::move(meshed.surface);
@@ -118,6 +129,7 @@ std::string source_line(const std::filesystem::path& shape, const MeshOptions& o
     std::string line =
         fmt::format("{} (xxh128 {}), {}, order {}, scale {}{}", shape.filename().string(),
                     file_content_hash(shape), sizes, order, options.scale, options.flip ? ", flipped" : "");
+    if (options.thickness > 0.0) line += fmt::format(", thickness {} m", options.thickness);
     if (is_read_by_gmsh(shape_format(shape))) line += ", gmsh " + gmsh_version();
     return line;
 }

@@ -12,6 +12,7 @@
 #include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/body_notes.hpp"
+#include "samara/commands/shared/load_body.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
@@ -111,11 +112,13 @@ int main(int argc, char** argv) {
                      "body has curved faces (--keep: as in the file)");
     arguments.option("--scale", options.scale,
                      "size of the file's unit, m (STEP and 3MF state their unit: keep 1)", 1e-12, 1e12);
+    arguments.option("--thickness", options.thickness, samara::thickness_help, 0.0, 1e12);
     arguments.option("--time-limit", options.time_limit,
                      "limit of the CPU time to read and mesh the shape, s", 1.0, 1e9);
     arguments.flag("--flip", options.flip, "reverse all triangles, for a surface that is inside out");
     arguments.footer(
-        "The surface must be closed. Triangles are smaller on curved parts and near edges.\n"
+        "The surface must be closed, or a sheet with --thickness. Triangles are smaller on curved parts and "
+        "near edges.\n"
         "Example: samara mesh meshes/shapes/ellipsoid.geo -o ellipsoid.body.h5 --triangles 1280");
     return samara::run_program(argc, argv, arguments, [&] {
         const auto start = std::chrono::steady_clock::now();

@@ -30,7 +30,7 @@ class BodyGroup(ctypes.Structure):  # samara_body_group
                 ("normal", c_double * 3), ("center_of_pressure", c_double * 3), ("turbulence", c_int32),
                 ("turbulent_kinetic_energy", c_double), ("dissipation_rate", c_double), ("langevin", c_int32),
                 ("table_reynolds_number", c_double), ("added_mass", c_int32), ("dynamic_coefficients", c_int32), ("patches", c_int32),
-                ("spread_start", c_double), ("smallest_size", c_double), ("largest_size", c_double)]
+                ("spread_start", c_double), ("smallest_size", c_double), ("largest_size", c_double), ("area_density", c_double)]
 
 
 class Pose(ctypes.Structure):  # samara_pose

@@ -22,6 +22,7 @@
 #include "foam-cases/farm/guarded_process.hpp"
 #include "foam-cases/farm/unbalanced_falls.hpp"
 #include "foam-cases/scene/scene_plan_report.hpp"
+#include "samara/commands/shared/load_body.hpp"
 #include "samara/commands/shared/print.hpp"
 #include "samara/commands/shared/subprocess.hpp"
 #include "samara/core/base/error.hpp"
@@ -117,7 +118,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
 }
 
 Body named_body(const BakeRequest& request, const fs::path& folder) {
-    Body body = prepare_body(request.shape, request.scale, folder);
+    Body body = prepare_body(request.shape, request.reading, folder);
     body.tables.reset();
     body.dynamic.reset();
     if (!request.name.empty()) body.name = request.name;
@@ -320,21 +321,14 @@ void run_stage(const std::vector<std::string>& words, const fs::path& log, const
 
 }  // namespace
 
-Body prepare_body(const fs::path& shape, double scale, const fs::path& folder) {
-    if (is_body_file_name(shape)) {
-        if (scale != 1.0) {
-            throw Error(fmt::format(
-                "{}: a body file is already in metres; leave the scale out, or scale the shape file",
-                shape.string()));
-        }
-        return read_body_file(shape);
-    }
+Body prepare_body(const fs::path& shape, const ShapeReading& reading, const fs::path& folder) {
+    if (is_body_file_name(shape)) return load_body(shape, reading);
     if (!fs::is_regular_file(shape))
         throw Error(fmt::format("{}: does not exist; check the name", shape.string()));
     const fs::path meshed = folder / "shape.body.h5";
     const std::string name = shape.string().starts_with('-') ? "./" + shape.string() : shape.string();
     std::vector<std::string> words = {require_program("samara-mesh").string(), name, "-o", meshed.string()};
-    if (scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", scale)});
+    for (const std::string& word : words_of(reading)) words.push_back(word);
     run_stage(words, folder / "log.mesh", "samara mesh");
     Body body = naming(shape.string(), meshed.string(), [&] { return read_body_file(meshed); });
     body.name = body_name_of(shape);
@@ -389,7 +383,7 @@ std::vector<BakeRequest> requests_for_scene(const Scene& scene, const std::files
         BakeRequest request;
         request.name = body.name;
         request.shape = body.shape;
-        request.scale = body.scale;
+        request.reading = reading_of(body);
         request.output = folder / (body.name + ".body.h5");
         request.fluid = scene.fluid;
         request.mass = body.mass;

@@ -12,6 +12,7 @@
 #include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/scene/scene_plan.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
+#include "samara/commands/shared/load_body.hpp"
 #include "samara/core/body/body.hpp"
 #include "samara/scene/scene.hpp"
 
@@ -21,7 +22,7 @@ namespace samara {
 struct BakeRequest {
     std::string name;             ///< of the body; empty: the name of the shape
     std::filesystem::path shape;  ///< a shape file or a body file
-    double scale = 1.0;           ///< metres for one unit of the shape file
+    ShapeReading reading;         ///< of a shape file
     std::filesystem::path output;
     Fluid fluid;
     MassSpecification mass;  ///< with a density or a mass
@@ -83,9 +84,10 @@ BakeResult bake_body(const BakeRequest& request, const FarmOptions& farm,
                      const std::function<void(const BakePreparation&)>& planned);
 
 /// Returns the body of a shape file, meshed by the program samara-mesh with its defaults, or the body of a
-/// body file. `scale`: metres for one unit of the shape file; for a body file it must be 1. `folder` receives
-/// intermediate files (shape.body.h5, log.mesh). Throws Error.
-Body prepare_body(const std::filesystem::path& shape, double scale, const std::filesystem::path& folder);
+/// body file, which takes the defaults of `reading` alone. `folder` receives intermediate files
+/// (shape.body.h5, log.mesh). Throws Error.
+Body prepare_body(const std::filesystem::path& shape, const ShapeReading& reading,
+                  const std::filesystem::path& folder);
 
 /// Computes the body's Kirchhoff tensor where it has none: copied from the body file `earlier` where that has
 /// the same surface, else by the command `samara kirchhoff`, whose intermediate files go to `folder`. Throws

@@ -59,7 +59,7 @@ Falling make_falling(const Scene& scene, const fs::path& earlier, const fs::path
     scene_body.turbulence = Turbulence::none;
     scene_body.added_mass = true;  // full CFD has it, whatever the scene's model leaves out
     scene_body.table_reynolds_number.reset();
-    falling.body = prepare_body(scene_body.shape, scene_body.scale, temporary);
+    falling.body = prepare_body(scene_body.shape, reading_of(scene_body), temporary);
     falling.body.name = scene_body.name;
     falling.body.tables.reset();
     falling.body.dynamic.reset();

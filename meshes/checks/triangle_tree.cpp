@@ -13,34 +13,6 @@ constexpr std::size_t pieces_of_all = 4'000'000;
 
 }  // namespace
 
-Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
-                                   const Vector3d& c) {
-    const Vector3d ab = b - a;
-    const Vector3d ac = c - a;
-    const Vector3d ap = p - a;
-    const double d1 = ab.dot(ap);
-    const double d2 = ac.dot(ap);
-    if (d1 <= 0.0 && d2 <= 0.0) return a;
-    const Vector3d bp = p - b;
-    const double d3 = ab.dot(bp);
-    const double d4 = ac.dot(bp);
-    if (d3 >= 0.0 && d4 <= d3) return b;
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
-    const Vector3d cp = p - c;
-    const double d5 = ab.dot(cp);
-    const double d6 = ac.dot(cp);
-    if (d6 >= 0.0 && d5 <= d6) return c;
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-        return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-    }
-    const double sum = va + vb + vc;
-    return a + vb / sum * ab + vc / sum * ac;
-}
-
 TriangleTree::TriangleTree(std::vector<Vector3d> vertices, std::vector<Triangle> triangles)
     : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
     std::vector<Box> boxes;

@@ -8,13 +8,9 @@
 
 #include "samara/core/base/box_tree.hpp"
 #include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/surface/surface.hpp"
 
 namespace samara {
-
-/// Returns the point of the triangle abc that is nearest to p. Ericson, Real-Time Collision Detection
-/// (2005), 5.1.5.
-Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
-                                   const Vector3d& c);
 
 /// Spreads points over a flat triangle: calls `visit` with the middle of each of its equal parts and the
 /// number of parts, a square number of about `wanted`.

@@ -30,6 +30,7 @@ struct MeshOptions {
     bool as_many_as_needed = true;  ///< more or smaller triangles where these do not hold the shape
     int order = automatic_order;    ///< 1: flat; 2: curved triangles with nodes in the middle of their edges
     double scale = 1.0;             ///< metres for one unit of the file
+    double thickness = 0.0;         ///< m: makes an open sheet of triangles a solid; 0: the shape is one
     bool flip = false;              ///< reverse the orientation of every face of a file of triangles
     double time_limit = 300.0;      ///< CPU seconds that gmsh may take for the file
 };

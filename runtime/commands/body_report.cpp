@@ -268,6 +268,7 @@ nlohmann::json recommended_as_json(const RecommendedModels& models) {
 nlohmann::json mass_as_json(const Body& body) {
     const MassProperties mass = mass_properties(body, *body.mass);
     return {{"density", or_null(body.mass->density)},
+            {"area_density", or_null(body.mass->area_density)},
             {"mass", mass.mass},
             {"center_of_mass", as_json(mass.center_of_mass)},
             {"inertia", rows_as_json(mass.inertia)}};
@@ -282,10 +283,12 @@ void print_recommended(const Body& body) {
 
 void print_mass(const Body& body) {
     const MassProperties mass = mass_properties(body, *body.mass);
-    const bool is_uniform = body.mass->density.has_value();
-    print_row("default mass", "{:.6g} kg{}", mass.mass,
-              is_uniform ? fmt::format(", uniform, {:.6g} kg/m^3", *body.mass->density) : "");
-    if (is_uniform) return;
+    std::string uniform;
+    if (body.mass->density) uniform = fmt::format(", uniform, {:.6g} kg/m^3", *body.mass->density);
+    if (body.mass->area_density)
+        uniform = fmt::format(", uniform, {:.6g} g/m^2", *body.mass->area_density / gram);
+    print_row("default mass", "{:.6g} kg{}", mass.mass, uniform);
+    if (!uniform.empty()) return;
     print_row("  centre of mass", "{} m", in_words(mass.center_of_mass));
     print_row("  principal inertia", "{} kg m^2", in_words(eigenvalues_of(mass.inertia)));
 }

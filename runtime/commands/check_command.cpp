@@ -21,7 +21,7 @@ namespace {
 /// Checks a file. A shape is checked by meshing: samara-mesh reads it in a process of its own.
 CheckedFile check(const std::string& file) {
     if (is_hdf5(file)) return check_file(file);
-    (void)load_body(file, 1.0);
+    (void)load_body(file);
     return {"surface", false};
 }
 

@@ -33,6 +33,7 @@ struct Request {
     std::string file;
     std::string output;
     int triangles = 0;
+    double thickness = 0.0;
     double tolerance = 0.0;
     int threads = 0;
     std::string about;
@@ -77,7 +78,7 @@ bool within_tolerance(const Body& body, const Request& request) {
 /// meshed with, and none were asked for, it is meshed again.
 Body solved_body(const Request& request) {
     const auto solved = [&](int triangles) {
-        Body body = load_body(request.file, 1.0, triangles);
+        Body body = load_body(request.file, {.thickness = request.thickness, .triangles = triangles});
         body.kirchhoff = solve(body, request);
         body.surface_loads = labelled(
             request.file, [&] { return surface_loads(body.surface, body.moments, request.threads); });
@@ -165,6 +166,7 @@ int kirchhoff_command(int argc, const char* const* argv) {
     arguments.positional("FILE", request.file,
                          "body file (.body.h5), or any shape (.geo .stl .obj .step ...)");
     arguments.output_option("-o,--output", request.output, "body file to write, with the tensor");
+    arguments.option("--thickness", request.thickness, thickness_help, 0.0, 1e12);
     arguments.option("--triangles", request.triangles,
                      "approximate number of triangles to mesh the shape with; 0: the default of samara mesh",
                      0, 100'000);

@@ -26,6 +26,8 @@ and gravity) and angular velocity; shaded: the last two thirds of the fall, over
 the metrics in the title are measured.
 phase: the tilt of the shortest axis from the vertical, in the plane in which it swings
 most and signed, against its rate, coloured by time; and both over time.
+forces, of a motion by 'samara simulate --forces': drag, lift and inertia as arrows at the
+silhouettes; over time the size and the upward part of each force, and of the moments.
 landing: where all copies and runs land, from above, with the mean and the circle of
 the rms distance; the distributions of the distance and of the time of landing.
 Without a ground: the positions at the last frame, and the distances descended.
@@ -107,7 +109,7 @@ nlohmann::json plot(PlotOptions options, const Arguments& arguments) {
         throw Error(fmt::format("--kind {}: draws a {}, but {} is a {}", options.kind,
                                 of_body ? "motion" : "body file", options.input,
                                 of_body ? "body file; take polars, sphere or convergence"
-                                        : "motion; take strip, phase or landing"));
+                                        : "motion; take strip, phase, landing or forces"));
     }
     for (const char* option : {"--body", "--run", "--copy"}) {
         if (of_body && arguments.given(option)) {
@@ -160,7 +162,8 @@ int plot_command(int argc, const char* const* argv) {
                          "motion file (.h5), from 'samara simulate', or body file (.body.h5) with tables");
     arguments.required_output_option("-o,--output", options.output,
                                      "picture to write: .png (2000 x 1300 pixels) or .svg");
-    arguments.choice("--kind", options.kind, {"strip", "phase", "landing", "polars", "sphere", "convergence"},
+    arguments.choice("--kind", options.kind,
+                     {"strip", "phase", "landing", "forces", "polars", "sphere", "convergence"},
                      "what to draw; polars, sphere and convergence draw a body file (default: polars)");
     arguments.option("--body", options.body, "the body to draw; the first by default");
     arguments.option("--run", options.run, "the run to draw, counted from 0", 0, most);

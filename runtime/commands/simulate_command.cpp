@@ -43,6 +43,7 @@ struct Request {
     double step = 0.0;
     int runs = 1;
     int threads = 0;
+    bool forces = false;
 };
 
 std::atomic<bool> interrupted = false;
@@ -90,7 +91,8 @@ void note_doubtful_bodies(const Scene& scene, const std::vector<LoadedBody>& loa
         notes.add(units, body.name, 0.0, units);
         notes.add("shape", body.name, 0.0,
                   is_body_file_name(body.shape) ? "" : shape_warning(*loaded[i].body));
-        if (body.loads == Loads::surface && body.open.loads && !loaded[i].body->tables) {
+        if (body.loads == Loads::surface && body.open.loads && !loaded[i].body->tables &&
+            !loaded[i].body->recommended) {
             notes.add("surface", body.name, 0.0,
                       "has no tables; its loads are estimated from potential flow "
                       "(docs/explanation/loads-without-a-bake.md); 'samara bake' computes tables");
@@ -156,16 +158,19 @@ void judge_needs(const RunNeeds& needs, const Request& request) {
 SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& loaded, const Request& request) {
     const std::string& output = request.output;
     const NotedInterrupts interrupts;
-    SceneSimulation simulation(scene, loaded, request.runs, request.threads);
+    SceneSimulation simulation(scene, loaded, request.runs, request.threads, request.forces);
     SimulationReport report;
     write_motion_file(output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("simulating", "steps");
-        report = simulation.fly([&](std::size_t body, std::size_t first,
-                                    const std::vector<Pose>& poses) { writer.write(body, first, poses); },
-                                [&](double done, double total) {
-                                    progress.update(done, total);
-                                    return !interrupted;
-                                });
+        report = simulation.fly(
+            [&](std::size_t body, std::size_t first, const std::vector<Pose>& poses) {
+                writer.write(body, first, poses);
+                writer.write_forces(body, first, simulation.forces());
+            },
+            [&](double done, double total) {
+                progress.update(done, total);
+                return !interrupted;
+            });
         writer.finish(report.frames);
     });
     if (report.interrupted) {
@@ -278,6 +283,9 @@ int simulate_command(int argc, const char* const* argv) {
     arguments.option("--step", request.step, "time step (s); by default the scene's", 1e-9, 1e3);
     arguments.option("--runs", request.runs, "number of runs, which differ only in their noise", 1,
                      1'000'000);
+    arguments.flag(
+        "--forces", request.forces,
+        "keeps the fluid's forces of each frame by their causes: buoyancy, inertia, drag, lift, noise");
     arguments.option("--threads", request.threads,
                      "number of threads, 0: all cores; the result does not depend on it", 0, 4096);
     arguments.footer(

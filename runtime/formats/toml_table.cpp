@@ -1,6 +1,7 @@
 #include "samara/formats/toml_table.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -171,6 +172,17 @@ std::optional<Vector3d> TomlTable::vector(std::string_view key) {
     const auto values = numbers(key, 3);
     if (!values) return std::nullopt;
     return Vector3d(values->data());
+}
+
+std::optional<Quaterniond> TomlTable::orientation() {
+    const auto degrees = vector("rotation");
+    const auto given = quaternion("orientation");
+    if (!degrees) return given;
+    if (given) throw error("rotation", "excludes orientation; give one of the two");
+    const Vector3d radians = std::numbers::pi / 180.0 * *degrees;
+    return Quaterniond(Eigen::AngleAxisd(radians.z(), Vector3d::UnitZ()) *
+                       Eigen::AngleAxisd(radians.y(), Vector3d::UnitY()) *
+                       Eigen::AngleAxisd(radians.x(), Vector3d::UnitX()));
 }
 
 std::optional<Quaterniond> TomlTable::quaternion(std::string_view key) {

@@ -44,6 +44,9 @@ class TomlTable {
     std::optional<Vector3d> vector(std::string_view key);
     /// Reads a rotation as the list (w, x, y, z), and normalises it.
     std::optional<Quaterniond> quaternion(std::string_view key);
+    /// Returns what `orientation` (a quaternion) or `rotation` says: degrees about the world's x axis, then
+    /// its y, then its z, which Blender calls XYZ Euler.
+    std::optional<Quaterniond> orientation();
     /// Reads a table within this one.
     std::optional<TomlTable> table(std::string_view key);
     /// Reads an array of tables, [[key]]; empty where there is none.

@@ -8,6 +8,7 @@
 
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/core/body/contact_points.hpp"
+#include "samara/core/physics/fluid_load.hpp"
 #include "samara/core/physics/obstacle.hpp"
 #include "samara/core/physics/pose.hpp"
 #include "samara/core/surface/display_mesh.hpp"
@@ -45,6 +46,7 @@ struct BodyMotion {
     std::vector<double> sizes;
     std::vector<MetricUncertainty> uncertainties;  ///< sorted by cause and metric; empty where none are known
     std::vector<Pose> poses;                       ///< index ((run * frames) + frame) * copies + copy
+    std::vector<FluidForces> forces;               ///< likewise; empty where they were not asked for
 
     /// Returns the lengths of a copy in a run, each counted from 0, relative to the surface's.
     [[nodiscard]] double size(int run, int copy) const {
@@ -63,15 +65,20 @@ struct Motion {
     std::optional<double> ground;                  ///< m: the height of the ground, where there is one
     std::vector<Obstacle> obstacles;               ///< solids besides the ground that the bodies could touch
     std::uint64_t seed = 1;                        ///< seed of the noise and the starts
+    bool has_forces = false;                       ///< whether the fluid's forces were kept
     std::string scene_text;                        ///< the scene file as it was read
     std::vector<BodyMotion> bodies;                ///< bodies in the scene's order
 
     /// Returns the number of frames.
     [[nodiscard]] int frames() const { return static_cast<int>(times.size()); }
+    /// Returns the place in BodyMotion::poses and forces of a copy in a run at a frame, each counted from 0.
+    [[nodiscard]] std::size_t index(const BodyMotion& body, int run, int frame, int copy) const {
+        const auto row = static_cast<std::size_t>(run) * times.size() + static_cast<std::size_t>(frame);
+        return row * static_cast<std::size_t>(body.copies) + static_cast<std::size_t>(copy);
+    }
     /// Returns the pose of a copy in a run at a frame, each counted from 0.
     [[nodiscard]] const Pose& pose(const BodyMotion& body, int run, int frame, int copy) const {
-        const auto row = static_cast<std::size_t>(run) * times.size() + static_cast<std::size_t>(frame);
-        return body.poses[row * static_cast<std::size_t>(body.copies) + static_cast<std::size_t>(copy)];
+        return body.poses[index(body, run, frame, copy)];
     }
 };
 

@@ -48,7 +48,7 @@ std::vector<MetricUncertainty> read_uncertainties(const Hdf5Reader& file, const 
 }
 
 BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, std::size_t frames,
-                               int& runs) {
+                               bool has_forces, int& runs) {
     const std::string group = "/bodies/" + name;
     const std::vector<hsize_t> vectors = pose_dimensions(file, group + "/position", frames);
     std::vector<hsize_t> quaternions = vectors;
@@ -56,6 +56,12 @@ BodyMotion read_body_but_poses(const Hdf5Reader& file, const std::string& name, 
     file.require_shape(group + "/velocity", vectors);
     file.require_shape(group + "/angular_velocity", vectors);
     file.require_shape(group + "/orientation", quaternions);
+    for (const auto& [part, member] : parts_of_fluid_forces) {
+        if (!has_forces) break;
+        std::vector<hsize_t> wrenches = vectors;
+        wrenches.back() = 6;
+        file.require_shape(forces_of(name, part), wrenches);
+    }
     runs = static_cast<int>(vectors[0]);
     BodyMotion body;
     body.name = name;
@@ -76,7 +82,9 @@ void read_bodies_but_poses(const Hdf5Reader& file, Motion& motion) {
     std::vector<std::pair<std::int64_t, BodyMotion>> bodies;
     for (const std::string& name : file.children("/bodies")) {
         int runs = 0;
-        BodyMotion body = read_body_but_poses(file, name, motion.times.size(), runs);
+        motion.has_forces =
+            bodies.empty() ? file.has(forces_of(name, parts_of_fluid_forces[0].first)) : motion.has_forces;
+        BodyMotion body = read_body_but_poses(file, name, motion.times.size(), motion.has_forces, runs);
         if (!bodies.empty() && runs != motion.runs) {
             throw Error(fmt::format(
                 "{}: /bodies/{} has {} runs, but earlier bodies have {}; simulate the scene again",
@@ -147,6 +155,26 @@ std::vector<Pose> MotionReader::poses(std::size_t body, const PoseBlock& block) 
     return poses;
 }
 
+std::vector<FluidForces> MotionReader::forces(std::size_t body, const PoseBlock& block) const {
+    if (!motion_.has_forces) return {};
+    const auto frames = static_cast<hsize_t>(motion_.frames());
+    const auto runs = static_cast<hsize_t>(block.runs);
+    const auto copies = static_cast<hsize_t>(block.copies);
+    std::vector<FluidForces> forces(runs * frames * copies);
+    for (const auto& [name, part] : parts_of_fluid_forces) {
+        const std::vector<double> values = file_->finite_block(
+            forces_of(motion_.bodies[body].name, name),
+            {static_cast<hsize_t>(block.first_run), 0, static_cast<hsize_t>(block.first_copy), 0},
+            {runs, frames, copies, 6});
+        for (std::size_t i = 0; i < forces.size(); ++i) {
+            Wrench& wrench = forces[i].*part;
+            wrench.moment = Vector3d(&values[6 * i]);
+            wrench.force = Vector3d(&values[6 * i + 3]);
+        }
+    }
+    return forces;
+}
+
 void MotionReader::for_each_block(std::size_t body,
                                   const std::function<void(const Motion&, const PoseBlock&)>& use) const {
     const BodyMotion& all = motion_.bodies[body];
@@ -159,6 +187,7 @@ void MotionReader::for_each_block(std::size_t body,
                 .ground = motion_.ground,
                 .obstacles = motion_.obstacles,
                 .seed = motion_.seed,
+                .has_forces = motion_.has_forces,
                 .scene_text = {},
                 .bodies = {all}};
     const int copies = std::min(columns, all.copies);
@@ -174,6 +203,7 @@ void MotionReader::for_each_block(std::size_t body,
                 part.bodies[0].sizes.push_back(all.size(run + i / block.copies, copy + i % block.copies));
             }
             part.bodies[0].poses = poses(body, block);
+            part.bodies[0].forces = forces(body, block);
             use(part, block);
         }
     }
@@ -190,11 +220,15 @@ void write_motion_file(const std::filesystem::path& path, const Motion& motion) 
                 const BodyMotion& body = motion.bodies[i];
                 const auto copies = static_cast<std::size_t>(body.copies);
                 std::vector<Pose> poses;
+                std::vector<FluidForces> forces;
                 for (std::size_t run = 0; run < static_cast<std::size_t>(motion.runs); ++run) {
-                    const Pose* begin = &body.poses[(run * frames + first) * copies];
-                    poses.insert(poses.end(), begin, begin + count * copies);
+                    const std::size_t begin = (run * frames + first) * copies;
+                    poses.insert(poses.end(), &body.poses[begin], &body.poses[begin] + count * copies);
+                    if (!motion.has_forces) continue;
+                    forces.insert(forces.end(), &body.forces[begin], &body.forces[begin] + count * copies);
                 }
                 writer.write(i, first, poses);
+                writer.write_forces(i, first, forces);
             }
         }
     });
@@ -204,7 +238,9 @@ Motion read_motion_file(const std::filesystem::path& path) {
     const MotionReader reader(path);
     Motion motion = reader.motion();
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
-        motion.bodies[i].poses = reader.poses(i, {0, motion.runs, 0, motion.bodies[i].copies});
+        const PoseBlock all{0, motion.runs, 0, motion.bodies[i].copies};
+        motion.bodies[i].poses = reader.poses(i, all);
+        motion.bodies[i].forces = reader.forces(i, all);
     }
     return motion;
 }

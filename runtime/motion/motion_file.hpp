@@ -46,6 +46,8 @@ class MotionReader {
     [[nodiscard]] const Motion& motion() const { return motion_; }
     /// Reads the poses of a block at all frames, (run, frame, copy) in row-major order.
     [[nodiscard]] std::vector<Pose> poses(std::size_t body, const PoseBlock& block) const;
+    /// Reads the fluid's forces of a block likewise; none where the motion has none.
+    [[nodiscard]] std::vector<FluidForces> forces(std::size_t body, const PoseBlock& block) const;
     /// Calls `use` for all copies and runs of a body, some 64 MB at a time: with a motion that holds them as
     /// its one body, without the scene's text, and with their place in the whole.
     void for_each_block(std::size_t body,

@@ -150,6 +150,10 @@ bool are_sound(const std::vector<ObstacleKey>& keys) {
 
 }  // namespace
 
+std::string forces_of(const std::string& body, const std::string& part) {
+    return "/bodies/" + body + "/forces/" + part;
+}
+
 std::string uncertainty_group(const std::string& body) {
     return "/bodies/" + body + "/uncertainty";
 }

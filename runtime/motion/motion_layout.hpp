@@ -21,6 +21,9 @@ inline constexpr std::int64_t motion_format_version = 1;
 /// each cause, which holds a number for each metric.
 std::string uncertainty_group(const std::string& body);
 
+/// Returns the name of the dataset of a part of the fluid's forces on a body (parts_of_fluid_forces).
+std::string forces_of(const std::string& body, const std::string& part);
+
 /// Throws Error, naming the file, where a motion apart from its poses breaks a rule of read_motion_file that
 /// a single dataset does not show.
 void check_motion_but_poses(const std::filesystem::path& file, const Motion& motion);

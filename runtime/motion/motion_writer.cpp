@@ -16,6 +16,12 @@ constexpr std::size_t block_bytes = 64U << 20U;
 constexpr std::size_t rows_in_chunk = (1U << 16U) / 3;
 constexpr std::size_t most_frames = 4096;
 constexpr std::size_t pose_bytes = 13 * sizeof(double);
+constexpr hsize_t components_of_wrench = 6;
+constexpr std::size_t forces_bytes = parts_of_fluid_forces.size() * components_of_wrench * sizeof(double);
+
+std::size_t row_bytes(const Motion& motion) {
+    return pose_bytes + (motion.has_forces ? forces_bytes : 0);
+}
 
 struct Series {
     const char* name;
@@ -77,6 +83,14 @@ void write_body(Hdf5Writer& file, const Motion& motion, std::size_t index) {
                       static_cast<hsize_t>(body.copies), series.components},
                      chunk_of(motion, body, series.components), series.units, series.meaning);
     }
+    for (const auto& [name, part] : parts_of_fluid_forces) {
+        if (!motion.has_forces) break;
+        file.reserve(forces_of(body.name, name),
+                     {static_cast<hsize_t>(motion.runs), motion.times.size(),
+                      static_cast<hsize_t>(body.copies), components_of_wrench},
+                     chunk_of(motion, body, components_of_wrench), "N m, N",
+                     "moment about the centre of mass, force, world axes: run, frame, copy, component");
+    }
     file.write(group + "/center_of_mass", row_major(body.center_of_mass), {3}, "m",
                "shape axes: position - R center_of_mass is the place of the shape file's origin");
     file.write(group + "/shortest_axis", row_major(body.shortest_axis), {3}, "1",
@@ -112,7 +126,7 @@ std::uintmax_t expected_size(const Motion& motion) {
         const std::uintmax_t poses = rounded_up(static_cast<std::uintmax_t>(motion.runs), chunk[0]) *
                                      rounded_up(motion.times.size(), chunk[1]) *
                                      rounded_up(static_cast<std::uintmax_t>(body.copies), chunk[2]);
-        bytes += poses * pose_bytes + poses * pose_bytes / 1000;  // and the list of chunks
+        bytes += poses * row_bytes(motion) + poses * row_bytes(motion) / 1000;  // and the list of chunks
         bytes += body.surface.vertices.size() * 24 + body.surface.corners.size() * 24;
         if (body.display != nullptr)
             bytes += body.display->positions.size() * 64 + body.display->corners.size() * 16;
@@ -160,6 +174,25 @@ void MotionWriter::write(std::size_t body, std::size_t first_frame, const std::v
     }
 }
 
+void MotionWriter::write_forces(std::size_t body, std::size_t first_frame,
+                                const std::vector<FluidForces>& forces) {
+    const BodyMotion& written = motion_.bodies[body];
+    const auto runs = static_cast<hsize_t>(motion_.runs);
+    const auto copies = static_cast<hsize_t>(written.copies);
+    const hsize_t frames = forces.size() / (runs * copies);
+    if (frames == 0) return;
+    std::vector<double> values(forces.size() * components_of_wrench);
+    for (const auto& [name, part] : parts_of_fluid_forces) {
+        for (std::size_t i = 0; i < forces.size(); ++i) {
+            const Wrench& wrench = forces[i].*part;
+            take(wrench.moment, &values[i * components_of_wrench]);
+            take(wrench.force, &values[i * components_of_wrench + 3]);
+        }
+        file_.write_block(forces_of(written.name, name), values, {0, first_frame, 0, 0},
+                          {runs, frames, copies, components_of_wrench});
+    }
+}
+
 void MotionWriter::finish(std::size_t frames) {
     if (frames == motion_.times.size()) return;
     file_.shorten("/time", {frames});
@@ -169,12 +202,18 @@ void MotionWriter::finish(std::size_t frames) {
                           {static_cast<hsize_t>(motion_.runs), frames, static_cast<hsize_t>(body.copies),
                            series.components});
         }
+        for (const auto& [name, part] : parts_of_fluid_forces) {
+            if (!motion_.has_forces) break;
+            file_.shorten(forces_of(body.name, name),
+                          {static_cast<hsize_t>(motion_.runs), frames, static_cast<hsize_t>(body.copies),
+                           components_of_wrench});
+        }
     }
 }
 
 std::size_t frames_in_block(const Motion& motion) {
     const std::size_t in_memory =
-        block_bytes / (std::max<std::size_t>(1, poses_in_frame(motion)) * pose_bytes);
+        block_bytes / (std::max<std::size_t>(1, poses_in_frame(motion)) * row_bytes(motion));
     return even_piece(motion.times.size(), std::clamp<std::size_t>(in_memory, 1, most_frames));
 }
 

@@ -18,6 +18,8 @@ class MotionWriter {
     /// row-major order. It takes the fewest operations where the blocks are those of frames_in_block().
     /// Throws Error where a pose breaks a rule of read_motion_file.
     void write(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses);
+    /// Writes the fluid's forces likewise, of a motion that has them.
+    void write_forces(std::size_t body, std::size_t first_frame, const std::vector<FluidForces>& forces);
 
     /// Ends the motion after `frames` frames, where it was cut short.
     void finish(std::size_t frames);

@@ -62,6 +62,26 @@ json strip(const Motion& motion, const BodyMotion& body, int run, int copy) {
     return picture;
 }
 
+/// Returns the data of a strip with the fluid's forces.
+json forces(const Motion& motion, const BodyMotion& body, int run, int copy) {
+    if (body.forces.empty()) {
+        throw Error(fmt::format("'{}': the motion holds no forces; simulate it with --forces", body.name));
+    }
+    json picture = strip(motion, body, run, copy);
+    picture["picture"] = "forces";
+    const auto& times = picture["times"];
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        const double time = motion.times[static_cast<std::size_t>(frame)];
+        if (time < times.front().get<double>() || time > times.back().get<double>()) continue;
+        const FluidForces& all = body.forces[motion.index(body, run, frame, copy)];
+        for (const auto& [name, part] : parts_of_fluid_forces) {
+            picture["force"][name].push_back(as_json((all.*part).force));
+            picture["moment"][name].push_back(as_json((all.*part).moment));
+        }
+    }
+    return picture;
+}
+
 json phase(const Motion& motion, const BodyMotion& body, int run, int copy) {
     if (!has_shortest_axis(body.surface)) {
         throw Error(fmt::format(
@@ -219,6 +239,7 @@ json side_as_json(const FallSet& set, const std::string& file, double end) {
 json motion_picture(const std::string& picture, const Motion& motion, const BodyMotion& body, int run,
                     int copy) {
     if (picture == "landing") return landing(motion, body);
+    if (picture == "forces") return forces(motion, body, run, copy);
     return picture == "phase" ? phase(motion, body, run, copy) : strip(motion, body, run, copy);
 }
 

@@ -2,12 +2,15 @@
 
 #include <atomic>
 #include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "samara/core/base/error.hpp"
+#include "samara/core/files/folders.hpp"
 
 namespace samara::python {
 namespace {
@@ -33,6 +36,21 @@ std::pair<std::size_t, py::ssize_t> place_of(PoseMember member) {
 }
 
 }  // namespace
+
+py::bytes bytes_of_file(const std::string& name,
+                        const std::function<void(const std::filesystem::path&)>& write) {
+    const TemporaryFolder folder;
+    write(folder / name);
+    std::ifstream stream(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+void with_file_of(const std::string& name, const py::bytes& bytes,
+                  const std::function<void(const std::filesystem::path&)>& read) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / name, std::ios::binary) << static_cast<std::string>(bytes);
+    read(folder / name);
+}
 
 py::array pose_view(const Pose* poses, std::vector<py::ssize_t> leading, PoseMember member,
                     const py::handle& owner) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -67,6 +68,26 @@ py::class_<Type, Options...> class_of(py::module_& module, const char* name, con
         throw py::type_error("the object is empty, as it was made by __new__ alone; call the class");
     };
     return made;
+}
+
+/// Returns the bytes of the file that `write` writes at the path that it is given.
+py::bytes bytes_of_file(const std::string& name,
+                        const std::function<void(const std::filesystem::path&)>& write);
+/// Calls `read` with a file of these bytes, which is gone afterwards.
+void with_file_of(const std::string& name, const py::bytes& bytes,
+                  const std::function<void(const std::filesystem::path&)>& read);
+
+/// Lets Python pickle and copy an object that never changes: a copy is the object itself, and a pickle what
+/// `arguments` returns, from which `make` makes it again.
+template <typename Class, typename Arguments>
+void make_pickled(Class& bound, const py::object& make, const Arguments& arguments) {
+    bound
+        .def("__reduce__",
+             [make, arguments](const py::object& self) { return py::make_tuple(make, arguments(self)); })
+        .def("__copy__", [](const py::object& self) { return self; })
+        .def(
+            "__deepcopy__", [](const py::object& self, const py::dict& /*memo*/) { return self; },
+            py::arg("memo"));
 }
 
 /// A body of a motion, which it keeps alive.

@@ -63,9 +63,26 @@ auto table_of(Member member, const std::vector<LoadEntry> LoadTables::*entries =
 }  // namespace
 
 void bind_body(py::module_& module) {
-    class_of<Body, SharedBody>(
-        module, "Body", "The content of a body file. Arrays are read-only views, which keep the body alive.")
-        .def_static("read", &read, py::arg("file"),
+    auto body = class_of<Body, SharedBody>(
+        module, "Body", "The content of a body file. Arrays are read-only views, which keep the body alive.");
+    module.def(
+        "_body_of_bytes",
+        [](const py::bytes& bytes) {
+            SharedBody result;
+            with_file_of("pickled.body.h5", bytes,
+                         [&](const std::filesystem::path& file) { result = read(file); });
+            return result;
+        },
+        py::arg("bytes"));
+    make_pickled(body, module.attr("_body_of_bytes"), [](const py::object& self) {
+        return py::make_tuple(bytes_of_file("pickled.body.h5", [&](const std::filesystem::path& file) {
+            const auto& pickled = self.cast<const Body&>();
+            const py::gil_scoped_release others_go_on;
+            const std::lock_guard lock(hdf5_mutex());
+            write_body_file(file, pickled);
+        }));
+    });
+    body.def_static("read", &read, py::arg("file"),
                     "Reads a body file (.body.h5). Raises FileError where it cannot be read, InputError "
                     "where its content is wrong.")
         .def_readonly("name", &Body::name, "Name of the body: that of its file or of its scene.")

@@ -58,7 +58,7 @@ void write(const FlownMotion& motion, const std::filesystem::path& file) {
 }
 
 FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::optional<double> step,
-                int threads, const std::filesystem::path& bodies, py::object progress) {
+                int threads, const std::filesystem::path& bodies, bool forces, py::object progress) {
     require_runs_and_threads(runs, threads);
     if (step && !(*step >= 1e-9 && *step <= 1e3))
         throw RaisedInputError("step: give seconds, from 1e-9 to 1000");
@@ -69,7 +69,7 @@ FlownMotion fly(Scene scene, int runs, std::optional<std::uint64_t> seed, std::o
             std::move(scene), {.bodies = bodies.string(), .seed = seed, .step = step, .threads = threads});
         SimulationResult result = simulate(
             ready.scene, ready.bodies, runs,
-            [&](double done, double total) { return work.tell(done, total); }, threads);
+            [&](double done, double total) { return work.tell(done, total); }, threads, forces);
         return {std::make_shared<const Motion>(std::move(result.motion)),
                 std::make_shared<const SimulationReport>(std::move(result.report))};
     };
@@ -258,10 +258,31 @@ std::string page(const FlownMotion& motion, int run) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+py::dict forces_by_part(const std::vector<FluidForces>& forces, const std::vector<py::ssize_t>& shape) {
+    py::dict parts;
+    for (const auto& [name, part] : parts_of_fluid_forces) {
+        py::array_t<double> values(shape);
+        double* value = values.mutable_data();
+        for (const FluidForces& all : forces) {
+            const Wrench& wrench = all.*part;
+            value = std::copy_n(wrench.moment.data(), 3, value);
+            value = std::copy_n(wrench.force.data(), 3, value);
+        }
+        parts[name] = values;
+    }
+    return parts;
+}
+
 void bind_body_motion(py::module_& module) {
-    class_of<BodyOfMotion>(module, "BodyMotion",
-                           "A body of a motion with all its runs, frames and copies. Arrays are read-only "
-                           "views, which keep the motion alive.")
+    auto body_motion = class_of<BodyOfMotion>(
+        module, "BodyMotion",
+        "A body of a motion with all its runs, frames and copies. Arrays are read-only views, which keep the "
+        "motion alive.");
+    make_pickled(body_motion, py::module_::import("operator").attr("getitem"), [](const py::object& self) {
+        const auto& pickled = self.cast<const BodyOfMotion&>();
+        return py::make_tuple(FlownMotion{pickled.motion, nullptr}, pickled.body().name);
+    });
+    body_motion
         .def_property_readonly(
             "name", [](const BodyOfMotion& body) { return body.body().name; },
             "Name of the body in the scene.")
@@ -284,6 +305,20 @@ void bind_body_motion(py::module_& module) {
             "Velocities of the centre of mass in m/s, world axes, shape (runs, frames, copies, 3).")
         .def_property_readonly("angular_velocity", &poses<PoseMember::angular_velocity>,
                                "Angular velocities in rad/s, world axes, shape (runs, frames, copies, 3).")
+        .def_property_readonly(
+            "forces",
+            [](const py::object& self) -> py::object {
+                const auto& body = self.cast<const BodyOfMotion&>();
+                const std::vector<FluidForces>& forces = body.body().forces;
+                if (forces.empty()) return py::none();
+                return forces_by_part(forces,
+                                      {body.motion->runs, body.motion->frames(), body.body().copies, 6});
+            },
+            "The fluid's forces by their causes, of simulate(forces=True) and of files that hold them; "
+            "otherwise "
+            "None. A dict of buoyancy, inertia, drag, lift and noise, each of shape (runs, frames, copies, "
+            "6): "
+            "the moment about the centre of mass in N m, then the force in N, world axes.")
         .def_property_readonly(
             "sizes",
             [](const py::object& self) -> py::object {
@@ -325,8 +360,24 @@ void bind_body_motion(py::module_& module) {
 
 void bind_motion(py::module_& module) {
     bind_body_motion(module);
-    class_of<FlownMotion>(module, "Motion",
-                          "Poses of bodies at evenly spaced times, in runs that differ by their noise alone.")
+    auto motion = class_of<FlownMotion>(
+        module, "Motion",
+        "Poses of bodies at evenly spaced times, in runs that differ by their noise alone.");
+    module.def(
+        "_motion_of_bytes",
+        [](const py::bytes& bytes) {
+            FlownMotion result;
+            with_file_of("pickled.h5", bytes,
+                         [&](const std::filesystem::path& file) { result = read(file); });
+            return result;
+        },
+        py::arg("bytes"));
+    make_pickled(motion, module.attr("_motion_of_bytes"), [](const py::object& self) {
+        const auto& pickled = self.cast<const FlownMotion&>();
+        return py::make_tuple(
+            bytes_of_file("pickled.h5", [&](const std::filesystem::path& file) { write(pickled, file); }));
+    });
+    motion
         .def_static("read", &read, py::arg("file"),
                     "Reads a motion file (.h5). Raises FileError where it cannot be read, InputError where "
                     "its content is wrong.")
@@ -372,6 +423,17 @@ void bind_motion(py::module_& module) {
                 return bodies;
             },
             "The bodies, in the scene's order.")
+        .def(
+            "__iter__", [](const py::object& self) { return py::iter(self.attr("bodies")); },
+            "Iterates over the bodies, in the scene's order.")
+        .def(
+            "__contains__",
+            [](const FlownMotion& motion, const std::string& name) {
+                const auto& bodies = motion.motion->bodies;
+                return std::any_of(bodies.begin(), bodies.end(),
+                                   [&](const BodyMotion& body) { return body.name == name; });
+            },
+            "Returns whether there is a body of that name.")
         .def("__getitem__", &body_named, py::arg("name"),
              "Returns the body of that name. Raises KeyError for an unknown name.")
         .def(
@@ -384,11 +446,12 @@ void bind_motion(py::module_& module) {
         });
     module.def(
         "fly", &fly, py::arg("scene"), py::kw_only(), py::arg("runs"), py::arg("seed"), py::arg("step"),
-        py::arg("threads"), py::arg("bodies"), py::arg("progress"),
+        py::arg("threads"), py::arg("bodies"), py::arg("forces"), py::arg("progress"),
         "Simulates a Scene and returns its Motion: samara.simulate() calls it, and gives its arguments their "
         "defaults. `seed` and `step` (s): None for the scene's. `threads`: 0 for all cores; the motion is "
         "the same for any number. `bodies`: a folder of baked bodies, NAME.body.h5 for each body of the "
-        "scene, or ''. `progress`: called with (done, total), or None. Raises InputError, FileError, and "
+        "scene, or ''. `forces`: whether to keep the fluid's forces. `progress`: called with (done, total), "
+        "or None. Raises InputError, FileError, and "
         "Error where a body's motion leaves the range of numbers.");
     module.def("compare", &comparison, py::arg("motion"), py::arg("reference"), py::kw_only(),
                py::arg("body") = py::none(), py::arg("window") = py::none(), py::arg("progress") = py::none(),

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <string>
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -20,6 +23,7 @@
 #include "samara/core/base/numbers.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/formats/toml_table.hpp"
+#include "samara/scene/obstacle_table.hpp"
 #include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/wind_table.hpp"
 
@@ -107,6 +111,20 @@ class LiveSimulation {
         return {load.wrench, load.added_inertia, load.damping};
     }
 
+    [[nodiscard]] std::map<std::string, Vector6d> fluid_forces(const std::string& name, int run, int copy) {
+        const std::size_t index = index_of(name, run, copy);
+        FluidForces forces;
+        with_simulation([&] {
+            require_there(index);
+            forces = simulation_->fluid_forces(index);
+        });
+        std::map<std::string, Vector6d> result;
+        for (const auto& [part, member] : parts_of_fluid_forces) {
+            result[part] << (forces.*member).moment, (forces.*member).force;
+        }
+        return result;
+    }
+
     [[nodiscard]] std::tuple<double, Vector3d, Matrix3d> mass_properties(const std::string& name, int run,
                                                                          int copy) {
         const std::size_t index = index_of(name, run, copy);
@@ -115,6 +133,30 @@ class LiveSimulation {
             own = {simulation_->mass(index), simulation_->center_of_mass(index), simulation_->inertia(index)};
         });
         return own;
+    }
+
+    void add_obstacle(const py::dict& keys, const std::filesystem::path& folder) {
+        const toml::table document = parse_toml(toml_text(keys, "obstacle"), "obstacle");
+        change_simulation([&] {
+            TomlTable table(document, "obstacle", "the obstacle");
+            Obstacle obstacle = read_obstacle(table, folder);
+            std::string name = obstacle.name;
+            const std::size_t index = simulation_->add_obstacle(std::move(obstacle));
+            obstacles_.resize(index);
+            obstacles_.push_back(std::move(name));
+        });
+    }
+
+    void remove_obstacle(const std::string& name) {
+        change_simulation([&] {
+            const auto found = std::find(obstacles_.begin(), obstacles_.end(), name);
+            if (found == obstacles_.end()) {
+                throw RaisedInputError(fmt::format("there is no obstacle '{}'; choose one of {}", name,
+                                                   fmt::join(obstacles_, ", ")));
+            }
+            simulation_->remove_obstacle(static_cast<std::size_t>(found - obstacles_.begin()));
+            found->clear();
+        });
     }
 
     void set_ground(std::optional<double> height) {
@@ -249,6 +291,7 @@ class LiveSimulation {
     void put(const PreparedScene& ready, int threads) {
         step_ = ready.scene.step;
         simulation_.emplace(simulation_of(ready.scene, ready.bodies, runs_, threads));
+        for (const Obstacle& obstacle : ready.scene.obstacles) obstacles_.push_back(obstacle.name);
         for (const auto& group : simulation_->groups()) {
             groups_.push_back({group->name(), static_cast<int>(group->copies()), group->first()});
         }
@@ -337,6 +380,7 @@ class LiveSimulation {
 
     int runs_;
     double step_ = 0.0;
+    std::vector<std::string> obstacles_;  ///< by their numbers; empty once they are removed
     std::optional<Simulation> simulation_;
     std::vector<Group> groups_;
     std::vector<std::pair<std::size_t, Wrench>> pushes_;  ///< over the next advance()
@@ -417,11 +461,23 @@ void bind_simulation(py::module_& module) {
              "and world axes, at the centre of mass, angular before linear. With the body's own inertia M, "
              "own wrench g and the step h: (M + A + h D) a = g + W. Then call set_pose(), and advance() by "
              "one step.")
+        .def(
+            "fluid_forces", &LiveSimulation::fluid_forces, py::arg("name"), py::kw_only(), py::arg("run") = 0,
+            py::arg("copy") = 0,
+            "Returns the fluid's forces on a body by their causes, at the end of its last step: a dict of "
+            "buoyancy, inertia, drag, lift and noise, each of shape (6,): moment about the centre of mass in "
+            "N m, then force in N, world axes.")
         .def("mass_properties", &LiveSimulation::mass_properties, py::arg("name"), py::kw_only(),
              py::arg("run") = 0, py::arg("copy") = 0,
              "Returns the mass (kg), the centre of mass (m, from the shape's origin, shape axes, shape (3,)) "
              "and the inertia about it (kg m^2, shape axes, shape (3, 3)) of the body alone, without added "
              "mass.")
+        .def("add_obstacle", &LiveSimulation::add_obstacle, py::arg("obstacle"), py::kw_only(),
+             py::arg("folder") = ".",
+             "Adds an obstacle now, from a dict with the keys of an [[obstacle]]; paths are relative to "
+             "`folder`. Raises InputError where its name is taken or a body is inside of it.")
+        .def("remove_obstacle", &LiveSimulation::remove_obstacle, py::arg("name"),
+             "Removes an obstacle: bodies that lay on it fall. Raises InputError for an unknown name.")
         .def("set_ground", &LiveSimulation::set_ground, py::arg("height"),
              "Sets level ground at a height (m), or removes it (None). Bodies below it are lifted onto it.")
         .def("set_wind", &LiveSimulation::set_wind, py::arg("wind"),

@@ -47,7 +47,7 @@ Surface read_mesh(const TomlTable& table, const std::filesystem::path& file) {
 
 ObstaclePlace read_place(TomlTable& table, const ObstaclePlace& standard) {
     return {.position = table.vector("position").value_or(standard.position),
-            .orientation = table.quaternion("orientation").value_or(standard.orientation)};
+            .orientation = table.orientation().value_or(standard.orientation)};
 }
 
 std::vector<ObstacleKey> read_keys(TomlTable& table, const ObstaclePlace& place) {

@@ -33,6 +33,7 @@ BodiesByName read_index(const fs::path& file) {
         body.purpose = table.text("purpose").value_or("");
         table.number("density_to", positive_number);
         table.number("fall_step", positive_number);
+        table.number("area_density", positive_number);
         for (const char* key :
              {"shape", "quality", "falls", "mass", "center_of_mass", "inertia", "recommended"}) {
             table.text(key);

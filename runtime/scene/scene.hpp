@@ -22,7 +22,8 @@ namespace samara {
 struct SceneBody : BodyPhysics, Release {
     std::string name;             ///< unique in the scene
     std::filesystem::path shape;  ///< a shape file or a .body.h5, as found from the scene file's folder
-    double scale = 1.0;           ///< metres for one unit of the shape file
+    double scale = 1.0;           ///< metres for one unit of the shape file; 1 of a body file
+    double thickness = 0.0;       ///< m: what an open sheet is thickened to; 0: the shape is a solid
     std::shared_ptr<const DisplayMesh>
         display;  ///< mesh for exports, in metres and shape axes; null: its surface
     bool models_auto =

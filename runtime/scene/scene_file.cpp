@@ -93,6 +93,7 @@ MassSpecification read_mass(TomlTable& table) {
     MassSpecification mass;
     mass.density = table.number("density");
     mass.mass = table.number("mass");
+    if (const auto grams = table.number("area_density")) mass.area_density = gram * *grams;
     mass.center_of_mass = table.vector("center_of_mass");
     mass.inertia = read_inertia(table);
     require_rules(table, broken_rule(mass));
@@ -179,7 +180,7 @@ void read_start(TomlTable& table, const std::filesystem::path& folder, SceneBody
         }
         body.emitter = std::make_shared<const Emitter>(read_emitter(*emitter, folder));
     }
-    assign(body.orientation, table.quaternion("orientation"));
+    assign(body.orientation, table.orientation());
     assign(body.velocity, table.vector("velocity"));
     assign(body.angular_velocity, table.vector("angular_velocity"));
     assign(body.start, table.number("start"));
@@ -236,6 +237,22 @@ std::shared_ptr<const DisplayMesh> read_display(TomlTable& table, const std::fil
     }
 }
 
+/// Gives a body of a file another size. What the scene says of its mass and its axes is of that size.
+void scale_body(const TomlTable& table, double scale, SceneBody& body) {
+    if (scale == 1.0) return;
+    body.smallest_size *= scale;
+    body.largest_size *= scale;
+    if (const auto broken = broken_rule(static_cast<const Release&>(body))) {
+        throw table.error("scale", "times spread.size must lie within 0.001 and 1000");
+    }
+    const double area = scale * scale;
+    if (body.mass.mass) *body.mass.mass /= area * scale;
+    if (body.mass.center_of_mass) *body.mass.center_of_mass /= scale;
+    if (body.mass.inertia) *body.mass.inertia /= area * area * scale;
+    if (body.coefficients.reference_area) *body.coefficients.reference_area /= area;
+    body.coefficients.center_of_pressure /= scale;
+}
+
 SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
     SceneBody body;
     const auto name = table.text("name");
@@ -248,16 +265,24 @@ SceneBody read_body(TomlTable& table, const std::filesystem::path& folder) {
             "shape",
             "is missing; give a shape file, a .body.h5 or a ready-baked body, such as \"samara:leaf\"");
     body.shape = shape_file(table, *shape, folder);
-    assign(body.scale, table.number("scale", positive_number));
-    body.display = read_display(table, folder, body.scale);
+    const double scale = table.number("scale", positive_number).value_or(1.0);
+    const bool is_made = is_body_file_name(body.shape);
+    if (!is_made) body.scale = scale;
+    assign(body.thickness, table.number("thickness", positive_number));
+    if (is_made && body.thickness > 0.0) {
+        throw table.error("thickness",
+                          "applies to the open sheet of a shape file, but this is a body file; remove it");
+    }
+    body.display = read_display(table, folder, scale);
     body.mass = read_mass(table);
-    if (!body.mass.is_given() && !is_body_file_name(body.shape)) {
-        throw table.error("density", "is missing; give density or mass");
+    if (!body.mass.is_given() && !is_made) {
+        throw table.error("density", "is missing; give density, mass or area_density");
     }
     read_start(table, folder, body);
     read_models(table, body);
     body.coefficients = read_coefficients(table, body.loads);
     read_turbulence(table, body);
+    if (is_made) scale_body(table, scale, body);
     require_rules(table, broken_rule(static_cast<const BodyPhysics&>(body)));
     if (body.coefficients.normal) body.coefficients.normal->normalize();
     table.finish();

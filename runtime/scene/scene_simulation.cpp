@@ -70,6 +70,16 @@ double steps_of(const Scene& scene, const BodyGroup& group) {
     return seconds / scene.step;
 }
 
+/// Moves the rows of the runs, of `planned` values each, together to `stored` each.
+template <typename Value>
+void shorten(std::vector<Value>& rows, std::size_t runs, std::size_t planned, std::size_t stored) {
+    if (rows.empty() || stored == planned) return;
+    for (std::size_t run = 1; run < runs; ++run) {
+        std::copy_n(&rows[run * planned], stored, &rows[run * stored]);
+    }
+    rows.resize(runs * stored);
+}
+
 }  // namespace
 
 SimulationSettings simulation_settings(const Scene& scene, int runs, int threads) {
@@ -99,7 +109,7 @@ Surroundings surroundings_of(const Scene& scene) {
 }
 
 SceneSimulation::SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
-                                 int threads)
+                                 int threads, bool forces)
     : threads_(threads),
       // Steps of bodies that touch may be slow, and are taken one by one anyway.
       piece_(scene.bodies_collide ? scene.step : std::numeric_limits<double>::infinity()),
@@ -111,6 +121,7 @@ SceneSimulation::SceneSimulation(const Scene& scene, const std::vector<LoadedBod
     motion_.ground = scene.ground;
     motion_.obstacles = scene.obstacles;
     motion_.seed = scene.seed;
+    motion_.has_forces = forces;
     motion_.scene_text = scene.text;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& scene_body = scene.bodies[i];
@@ -127,15 +138,18 @@ SceneSimulation::SceneSimulation(const Scene& scene, const std::vector<LoadedBod
     }
 }
 
-void SceneSimulation::take_frame(std::size_t index, double time, Pose* poses, std::size_t run_stride) {
+void SceneSimulation::take_frame(std::size_t index, double time, Pose* poses, FluidForces* forces,
+                                 std::size_t run_stride) {
     const BodyGroup& group = *simulation_.groups()[index];
     Frames& frames = frames_[index];
     const auto copies = static_cast<std::size_t>(motion_.bodies[index].copies);
     const std::size_t judged = std::max<std::size_t>(1, group.size() / judged_copies);
     parallel_for(group.size(), poses_a_piece, threads_, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
-            Pose& pose = poses[(i / copies) * run_stride + i % copies];
+            const std::size_t place = (i / copies) * run_stride + i % copies;
+            Pose& pose = poses[place];
             pose = group.pose(i, time);
+            if (forces != nullptr) forces[place] = group.fluid_forces(i, time);
             if (time < group.start(i)) continue;
             keep_sign_continuous(pose.orientation, frames.last[i]);
             frames.last[i] = pose.orientation;
@@ -161,10 +175,12 @@ SimulationReport SceneSimulation::fly(const Sink& sink, const Progress& progress
     const std::size_t all = motion_.times.size();
     const std::size_t block = frames_in_block(motion_);
     std::vector<std::vector<Pose>> poses(motion_.bodies.size());
+    std::vector<std::vector<FluidForces>> forces(motion_.bodies.size());
     while (report.frames < all && !report.interrupted) {
         const std::size_t planned = std::min(block, all - report.frames);
         for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
             poses[i].resize(runs * planned * static_cast<std::size_t>(motion_.bodies[i].copies));
+            if (motion_.has_forces) forces[i].resize(poses[i].size());
         }
         std::size_t stored = 0;
         while (stored < planned && !report.interrupted) {
@@ -176,7 +192,8 @@ SimulationReport SceneSimulation::fly(const Sink& sink, const Progress& progress
             }
             for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
                 const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
-                take_frame(i, time, &poses[i][stored * copies], planned * copies);
+                take_frame(i, time, &poses[i][stored * copies],
+                           motion_.has_forces ? &forces[i][stored * copies] : nullptr, planned * copies);
             }
             report.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             ++stored;
@@ -184,15 +201,12 @@ SimulationReport SceneSimulation::fly(const Sink& sink, const Progress& progress
                                  report.frames + stored < all;
         }
         for (std::size_t i = 0; i < motion_.bodies.size() && stored > 0; ++i) {
-            if (stored < planned) {  // the runs stand closer together
-                const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
-                for (std::size_t run = 1; run < runs; ++run) {
-                    std::copy_n(&poses[i][run * planned * copies], stored * copies,
-                                &poses[i][run * stored * copies]);
-                }
-                poses[i].resize(runs * stored * copies);
-            }
+            const auto copies = static_cast<std::size_t>(motion_.bodies[i].copies);
+            shorten(poses[i], runs, planned * copies, stored * copies);
+            shorten(forces[i], runs, planned * copies, stored * copies);
+            given_forces_.swap(forces[i]);
             sink(i, report.frames, poses[i]);
+            given_forces_.swap(forces[i]);
         }
         report.frames += stored;
     }
@@ -206,20 +220,23 @@ SimulationReport SceneSimulation::fly(const Sink& sink, const Progress& progress
 }
 
 SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
-                          const SceneSimulation::Progress& progress, int threads) {
-    SceneSimulation simulation(scene, loaded, runs, threads);
+                          const SceneSimulation::Progress& progress, int threads, bool forces) {
+    SceneSimulation simulation(scene, loaded, runs, threads, forces);
     SimulationResult result{simulation.motion(), {}};
     Motion& motion = result.motion;
     for (BodyMotion& body : motion.bodies) {
         body.poses.resize(static_cast<std::size_t>(runs) * motion.times.size() *
                           static_cast<std::size_t>(body.copies));
+        if (forces) body.forces.resize(body.poses.size());
     }
     const auto keep = [&](std::size_t index, std::size_t first, const std::vector<Pose>& poses) {
         BodyMotion& body = motion.bodies[index];
         const auto copies = static_cast<std::size_t>(body.copies);
         const std::size_t row = poses.size() / static_cast<std::size_t>(runs);
         for (std::size_t run = 0; run < static_cast<std::size_t>(runs); ++run) {
-            std::copy_n(&poses[run * row], row, &body.poses[(run * motion.times.size() + first) * copies]);
+            const std::size_t place = (run * motion.times.size() + first) * copies;
+            std::copy_n(&poses[run * row], row, &body.poses[place]);
+            if (forces) std::copy_n(&simulation.forces()[run * row], row, &body.forces[place]);
         }
     };
     result.report = simulation.fly(keep, progress);

@@ -50,9 +50,11 @@ class SceneSimulation {
     using Progress = std::function<bool(double done, double total)>;
 
     /// Prepares a simulation. `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the
-    /// poses are the same for any number. Throws Error where a body lacks what the scene asks of it or starts
+    /// poses are the same for any number. `forces`: whether frames hold the fluid's forces too. Throws Error
+    /// where a body lacks what the scene asks of it or starts
     /// below the ground.
-    SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads = 0);
+    SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads = 0,
+                    bool forces = false);
 
     /// Returns the motion without its poses.
     [[nodiscard]] const Motion& motion() const { return motion_; }
@@ -61,13 +63,16 @@ class SceneSimulation {
     /// does not grow with the number of frames.
     SimulationReport fly(const Sink& sink, const Progress& progress);
 
+    /// Returns the forces beside the poses that the sink is given; empty where they were not asked for.
+    [[nodiscard]] const std::vector<FluidForces>& forces() const { return given_forces_; }
+
   private:
     /// Sums over the frames of a body so far, copy by copy, so that they are added in one order.
     struct Frames {
         std::vector<Quaterniond> last;  ///< orientations at the last frame
         std::vector<TableErrorsOnPath> table_errors;
     };
-    void take_frame(std::size_t group, double time, Pose* poses, std::size_t run_stride);
+    void take_frame(std::size_t group, double time, Pose* poses, FluidForces* forces, std::size_t run_stride);
     bool advance_to(double time, const Progress& progress);
 
     Motion motion_;
@@ -75,6 +80,7 @@ class SceneSimulation {
     double piece_;  ///< s, after which progress is told at the latest; infinite: by frames alone
     Simulation simulation_;
     std::vector<Frames> frames_;
+    std::vector<FluidForces> given_forces_;
     double total_steps_ = 0.0;
 };
 
@@ -86,6 +92,6 @@ struct SimulationResult {
 
 /// Simulates a scene and keeps all poses in memory. Throws Error also where `progress` ends it.
 SimulationResult simulate(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs,
-                          const SceneSimulation::Progress& progress, int threads = 0);
+                          const SceneSimulation::Progress& progress, int threads = 0, bool forces = false);
 
 }  // namespace samara

@@ -41,9 +41,11 @@ void require_sizes_in_tables(const Scene& scene, const SceneBody& scene_body, co
     if (!(speed > 0.0)) return;
     const double lowest = body->tables->reynolds_numbers.front();
     const double highest = body->tables->reynolds_numbers.back();
-    // The terminal speed goes with the root of the size, the Reynolds number with its power 3/2.
+    // The terminal speed goes with the root of the mass by area, the Reynolds number with that times the
+    // size.
     const double own = reynolds_number(*body, speed);
-    const auto size_at = [&](double reynolds) { return std::pow(reynolds / own, 2.0 / 3.0); };
+    const double power = body->keeps_thickness ? 1.0 : 1.5;
+    const auto size_at = [&](double reynolds) { return std::pow(reynolds / own, 1.0 / power); };
     const double least = size_at(0.5 * lowest);
     const double most = size_at(2.0 * highest);
     const bool too_large = scene_body.largest_size > most;
@@ -52,7 +54,8 @@ void require_sizes_in_tables(const Scene& scene, const SceneBody& scene_body, co
     throw Error(fmt::format(
         "{}: body '{}': with spread.size {:g} it falls at a Reynolds number of about {:.3g}, but its tables "
         "range from {:.3g} to {:.3g}; keep the sizes within {:.3g} and {:.3g}, or bake this scene",
-        scene.file.string(), scene_body.name, size, own * std::pow(size, 1.5), lowest, highest, least, most));
+        scene.file.string(), scene_body.name, size, own * std::pow(size, power), lowest, highest, least,
+        most));
 }
 
 }  // namespace samara

@@ -58,6 +58,14 @@ WindProfile read_profile(TomlTable& table, double ground) {
     return profile;
 }
 
+WindSurfaceLayer read_surface_layer(TomlTable& table) {
+    WindSurfaceLayer layer;
+    layer.height = table.number("height", non_negative_number).value_or(layer.height);
+    layer.roughness = table.number("roughness", positive_number).value_or(layer.roughness);
+    table.finish();
+    return layer;
+}
+
 WindGusts read_gusts(TomlTable& table) {
     using Spectrum = WindGusts::Spectrum;
     WindGusts gusts;
@@ -138,6 +146,7 @@ Wind read_wind(TomlTable& table, const std::filesystem::path& folder, double gro
             throw table.error("velocity", "must be horizontal (z = 0) if it has a profile");
         }
     }
+    if (auto layer = table.table("surface_layer")) wind.surface_layer = read_surface_layer(*layer);
     if (auto gusts = table.table("gusts")) wind.gusts = read_gusts(*gusts);
     for (TomlTable& vortex : table.tables("vortex")) wind.vortices.push_back(read_vortex(vortex));
     for (TomlTable& fan : table.tables("fan")) wind.fans.push_back(read_fan(fan));

@@ -17,6 +17,7 @@
 #include "samara/kirchhoff/solvers/tensor_error.hpp"
 #include "support/expect_error.hpp"
 #include "support/known_bodies.hpp"
+#include "support/obstacles.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_shapes.hpp"
 
@@ -389,6 +390,21 @@ std::string error_of_text(const std::string& name, const std::string& text) {
     EXPECT_THAT(error, ::testing::StartsWith((folder / name).string() + ": "));
     EXPECT_THAT(error, ::testing::Not(HasSubstr("\n")));
     return error;
+}
+
+TEST(MakeBody, AnOpenSheetOfPaperIsThickenedAndMeshed) {
+    const test::TemporaryFolder folder;
+    test::write_obj(folder / "paper.obj", test::sheet_of_many(210.0, 297.0, 6));
+    EXPECT_THAT(test::error_of([&] { make_body(folder / "paper.obj"); }), HasSubstr("--thickness"));
+    MeshOptions options;
+    options.scale = 0.001;
+    options.thickness = 1e-4;
+    const Body paper = make_body(folder / "paper.obj", options);
+    EXPECT_NEAR(paper.moments.volume, 0.21 * 0.297 * 1e-4, 0.01 * 0.21 * 0.297 * 1e-4);
+    EXPECT_NO_THROW(require_sound_surface(paper.surface));
+    EXPECT_THAT(paper.source, HasSubstr("thickness 0.0001 m"));
+    EXPECT_THAT(test::error_of([&] { make_body(test::shape_of_samara("sheet.geo"), options); }),
+                HasSubstr("only sheets of triangles"));
 }
 
 TEST(MakeBody, NamesWhatIsWrongWithAFile) {

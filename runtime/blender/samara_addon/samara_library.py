@@ -11,7 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t,
 import numpy
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
-API_VERSION = 9
+API_VERSION = 10
 
 LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE, LOADS_SURFACE = 0, 1, 2, 3
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
@@ -83,6 +83,7 @@ class BodyGroup(ctypes.Structure):
         ("spread_start", c_double),
         ("smallest_size", c_double),
         ("largest_size", c_double),
+        ("area_density", c_double),
     ]
 
 

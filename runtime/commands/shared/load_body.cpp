@@ -46,7 +46,7 @@ std::string last_line(const std::filesystem::path& log) {
     return last.starts_with(name) ? last.substr(name.size()) : last;
 }
 
-Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
+Body meshed(const std::filesystem::path& shape, const ShapeReading& reading) {
     const auto program = find_program("samara-mesh");
     if (!program) {
         throw Error(
@@ -59,8 +59,7 @@ Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
     const std::filesystem::path log = folder.path() / "log";
     std::vector<std::string> words = {program->string(), std::filesystem::absolute(shape).string(), "-o",
                                       output.string()};
-    if (triangles > 0) words.insert(words.end(), {"--triangles", std::to_string(triangles)});
-    if (scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", scale)});
+    for (const std::string& word : words_of(reading)) words.push_back(word);
     const InterruptsForTheOther guard;
     const int status = run_subprocess(words, log);
     if (status == 128 + SIGINT) throw Error(fmt::format("{}: meshing was interrupted", shape.string()));
@@ -75,6 +74,20 @@ Body meshed(const std::filesystem::path& shape, double scale, int triangles) {
 
 }  // namespace
 
+ShapeReading reading_of(const SceneBody& body) {
+    return {.scale = body.scale, .thickness = body.thickness};
+}
+
+std::vector<std::string> words_of(const ShapeReading& reading) {
+    std::vector<std::string> words;
+    if (reading.triangles > 0) words.insert(words.end(), {"--triangles", std::to_string(reading.triangles)});
+    if (reading.scale != 1.0) words.insert(words.end(), {"--scale", fmt::format("{}", reading.scale)});
+    if (reading.thickness > 0.0) {
+        words.insert(words.end(), {"--thickness", fmt::format("{}", reading.thickness)});
+    }
+    return words;
+}
+
 bool is_hdf5(const std::filesystem::path& file) {
     constexpr std::string_view beginning = "\x89HDF\r\n\x1a\n";
     std::string start(beginning.size(), '\0');
@@ -86,19 +99,23 @@ bool is_hdf5(const std::filesystem::path& file) {
     return start == beginning;
 }
 
-Body load_body(const std::filesystem::path& body_or_shape, double scale, int triangles) {
+Body load_body(const std::filesystem::path& body_or_shape, const ShapeReading& reading) {
     const std::string name = body_or_shape.string();
     static_cast<void>(InputFile(body_or_shape));  // which says what is wrong with it
     if (!is_body_file_name(body_or_shape) && !is_hdf5(body_or_shape)) {
-        return meshed(body_or_shape, scale, triangles);
+        return meshed(body_or_shape, reading);
     }
-    if (triangles > 0) {
+    if (reading.triangles > 0) {
         throw Error(
             fmt::format("{}: already holds a mesh; leave --triangles out, or give the shape file", name));
     }
-    if (scale != 1.0) {
+    if (reading.scale != 1.0) {
         throw Error(
             fmt::format("{}: is already in metres; leave the scale out, or give the shape file", name));
+    }
+    if (reading.thickness > 0.0) {
+        throw Error(
+            fmt::format("{}: is a solid already; leave the thickness out, or give the open sheet", name));
     }
     return read_body_file(body_or_shape);
 }

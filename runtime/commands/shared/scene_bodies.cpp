@@ -41,7 +41,7 @@ void require_same_shape(const std::filesystem::path& file, const Body& body, con
 /// What a scene asks of the body of a file.
 struct Wanted {
     std::filesystem::path file;
-    double scale = 1.0;
+    ShapeReading reading;
     bool added_mass = false;
     bool surface_loads = false;
 
@@ -64,18 +64,18 @@ void complete(Body& body, const Wanted& wanted) {
 Body loaded_body(const Wanted& wanted, const std::optional<std::string>& key) {
     std::optional<Body> body;
     if (is_body_file_name(wanted.file) || is_hdf5(wanted.file)) {
-        body = load_body(wanted.file, wanted.scale);
+        body = load_body(wanted.file, wanted.reading);
         const bool is_complete =
             (body->kirchhoff || !wanted.added_mass) && (body->surface_loads || !wanted.surface_loads);
         if (is_complete) return *std::move(body);
     }
     const BodyCache cache;
-    const std::string entry =
-        fmt::format("{}\n{} {} {}", key.value_or(""), wanted.scale, wanted.added_mass, wanted.surface_loads);
+    const std::string entry = fmt::format("{}\n{} {} {} {}", key.value_or(""), wanted.reading.scale,
+                                          wanted.reading.thickness, wanted.added_mass, wanted.surface_loads);
     if (key) {
         if (auto kept = cache.find(entry)) return *std::move(kept);
     }
-    if (!body) body = load_body(wanted.file, wanted.scale);
+    if (!body) body = load_body(wanted.file, wanted.reading);
     complete(*body, wanted);
     // A file that was written meanwhile may be another than the key's.
     if (key && body_key(wanted.file) == key) cache.keep(entry, *body);
@@ -121,7 +121,7 @@ Wanted wanted_of(const SceneBody& scene_body, const std::string& folder) {
     const bool asked = scene_body.loads == Loads::surface;
     return {.file = file_of(scene_body, folder),
             // A baked body is in metres already: the scene's scale went into it.
-            .scale = folder.empty() ? scene_body.scale : 1.0,
+            .reading = folder.empty() ? reading_of(scene_body) : ShapeReading{},
             .added_mass = scene_body.added_mass,
             .surface_loads = asked || scene_body.open.loads};
 }

@@ -13,14 +13,13 @@ int thread_count(int threads) {
     return threads > 0 ? threads : cores;
 }
 
-void parallel_for(std::size_t count, std::size_t piece, int threads,
-                  const std::function<void(std::size_t, std::size_t)>& work,
-                  const std::function<void(double)>& progress) {
+void parallel_for_range(std::size_t count, std::size_t piece, int threads, const RangeWork& work,
+                        const std::function<void(double)>& progress) {
     std::atomic<std::size_t> next = 0;
     const auto take_piece = [&] {
         const std::size_t begin = next.fetch_add(piece);
         if (begin >= count) return false;
-        work(begin, std::min(begin + piece, count));
+        work.call(work.work, begin, std::min(begin + piece, count));
         return true;
     };
     const std::size_t pieces = (count + piece - 1) / piece;

@@ -50,7 +50,9 @@ double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, co
     const double carried = moments.volume + tensor.bottomRightCorner<3, 3>().trace() / 3.0;
     // Angular blocks grow with the fifth power of a length, the volume with the third.
     constexpr double of_volume = 5.0 / 3.0;
-    return std::max(of_volume * std::max(std::abs(error.volume), error.faceting),
+    // A sphere carries half its volume; a sheet's volume says nothing of what it carries.
+    const double share = std::min(1.0, 1.5 * moments.volume / carried);
+    return std::max(of_volume * share * std::max(std::abs(error.volume), error.faceting),
                     error.mean_distance * moments.surface_area / carried);
 }
 
@@ -61,7 +63,8 @@ MassSpecification mass_asked_or_own(const MassSpecification& asked, const Body& 
 MassProperties mass_properties(const Body& body, const MassSpecification& mass) {
     const VolumeMoments& moments = body.moments;
     MassProperties result;
-    result.mass = mass.mass.value_or(mass.density.value_or(0.0) * moments.volume);
+    const double of_sheet = mass.area_density.value_or(0.0) * 0.5 * moments.surface_area;
+    result.mass = mass.mass.value_or(mass.density ? *mass.density * moments.volume : of_sheet);
     result.center_of_mass = mass.center_of_mass.value_or(moments.centroid);
     result.inertia = mass.inertia.value_or(uniform_inertia(moments, result.mass / moments.volume));
     return result;

@@ -222,9 +222,10 @@ std::string error_of(const Body& body) {
 }
 
 std::string error_of(const MassSpecification& mass) {
-    if (!mass.is_given()) return "give density or mass";
+    if (!mass.is_given()) return "give density, mass or area_density";
     std::string error = error_of_number(mass.density, "density");
     if (error.empty()) error = error_of_number(mass.mass, "mass");
+    if (error.empty()) error = error_of_number(mass.area_density, "area_density");
     if (error.empty() && mass.center_of_mass && !mass.center_of_mass->allFinite()) {
         error = "center_of_mass must be finite";
     }

@@ -136,6 +136,10 @@ IdentifiedCoefficients read_dynamic_coefficients(const Hdf5Reader& file) {
 void write_mass(Hdf5Writer& file, const MassSpecification& mass) {
     if (mass.density) file.write("/mass/density", std::vector{*mass.density}, {1}, "kg/m^3", "uniform");
     if (mass.mass) file.write("/mass/mass", std::vector{*mass.mass}, {1}, "kg", "the whole");
+    if (mass.area_density) {
+        file.write("/mass/area_density", std::vector{*mass.area_density}, {1}, "kg/m^2",
+                   "of half the surface; copies of other sizes keep the thickness");
+    }
     if (mass.center_of_mass) {
         file.write("/mass/center_of_mass", row_major(*mass.center_of_mass), {3}, "m", "shape axes");
     }
@@ -149,9 +153,13 @@ MassSpecification read_mass(const Hdf5Reader& file) {
     MassSpecification mass;
     if (file.has("/mass/density")) mass.density = file.finite_doubles("/mass/density", {1}).front();
     if (file.has("/mass/mass")) mass.mass = file.finite_doubles("/mass/mass", {1}).front();
-    if (mass.density.has_value() == mass.mass.has_value()) {
-        throw Error(fmt::format("{}: /mass must hold either a density or a mass; make the file again",
-                                file.path().string()));
+    if (file.has("/mass/area_density")) {
+        mass.area_density = file.finite_doubles("/mass/area_density", {1}).front();
+    }
+    if (mass.given() != 1) {
+        throw Error(
+            fmt::format("{}: /mass must hold one of density, mass and area_density; make the file again",
+                        file.path().string()));
     }
     if (file.has("/mass/center_of_mass")) {
         mass.center_of_mass = from_row_major<Vector3d>(file.finite_doubles("/mass/center_of_mass", {3}));

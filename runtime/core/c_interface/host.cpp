@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -158,6 +159,29 @@ samara_status samara_take_contacts(samara_simulation* simulation, size_t first, 
             contact.obstacle = record.body < 0 ? record.obstacle : -2 - record.body;
             contact.at_rest = simulation->core.is_at_rest(i) ? 1 : 0;
             std::memcpy(place, &contact, sizeof contact);
+        }
+    });
+}
+
+samara_status samara_get_fluid_forces(const samara_simulation* simulation, size_t first, size_t count,
+                                      samara_fluid_forces* forces, size_t stride, char* error,
+                                      size_t error_size) {
+    return guarded(error, error_size, [&] {
+        const std::size_t bytes =
+            samara::checked_stride(simulation, first, count, forces, "forces", stride,
+                                   sizeof(samara_fluid_forces), alignof(samara_fluid_forces));
+        auto* place = reinterpret_cast<std::byte*>(forces);
+        for (std::size_t i = first; i < first + count; ++i, place += bytes) {
+            const samara::FluidForces found = simulation->core.fluid_forces(i);
+            samara_fluid_forces result{};
+            double* const parts[] = {result.buoyancy, result.inertia, result.drag, result.lift, result.noise};
+            static_assert(std::size(parts) == samara::parts_of_fluid_forces.size());
+            for (std::size_t part = 0; part < std::size(parts); ++part) {
+                const samara::Wrench& wrench = found.*samara::parts_of_fluid_forces[part].second;
+                std::copy_n(wrench.moment.data(), 3, parts[part]);
+                std::copy_n(wrench.force.data(), 3, parts[part] + 3);
+            }
+            std::memcpy(place, &result, sizeof result);
         }
     });
 }

@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 /* The version of this header: it grows with every addition; what exists does not change. */
-#define SAMARA_API_VERSION 9
+#define SAMARA_API_VERSION 10
 
 /* The SAMARA_API_VERSION of the library that is linked: at least that of the header, or functions may be
  * missing. */
@@ -211,6 +211,9 @@ typedef struct samara_body_group {
     double spread_start;  /* s: several start up to this after `start`, drawn from the seed */
     double smallest_size; /* relative to the shape, 0.001 to 1000, at its density: sizes of several lie ... */
     double largest_size;  /* ... between these two, drawn from the seed; one has both; default: 1 and 1 */
+
+    /* since SAMARA_API_VERSION 10 */
+    double area_density; /* g/m^2 of half the surface, in place of a density; sizes keep the thickness */
 } samara_body_group;
 
 SAMARA_API samara_status samara_default_body_group(samara_body_group* group, size_t size, char* error,
@@ -314,11 +317,15 @@ typedef struct samara_obstacle {
 SAMARA_API samara_status samara_default_obstacle(samara_obstacle* obstacle, size_t size, char* error,
                                                  size_t error_size);
 
-/* Adds an obstacle, before all bodies. Obstacles are numbered from 0 in the order in which they are added;
- * *index (may be null) is the number of the new one. A group that starts inside of it is rejected. */
+/* Adds an obstacle: since version 10 at any time, before only before all bodies. Obstacles are numbered from 0 in the order in which they are added;
+ * *index (may be null) is the number of the new one. A body that starts or is inside of it is an error. */
 SAMARA_API samara_status samara_simulation_add_obstacle(samara_simulation* simulation,
                                                         const samara_obstacle* obstacle, size_t* index,
                                                         char* error, size_t error_size);
+
+/* Removes an obstacle: bodies that it bore fall, and the others keep their numbers. Since version 10. */
+SAMARA_API samara_status samara_remove_obstacle(samara_simulation* simulation, size_t obstacle, char* error,
+                                                size_t error_size);
 
 SAMARA_API size_t samara_simulation_obstacle_count(const samara_simulation* simulation); /* 0 for null */
 
@@ -438,6 +445,25 @@ typedef struct samara_fluid_load {
  * within a step of the body: SAMARA_INVALID_ARGUMENT. */
 SAMARA_API samara_status samara_get_fluid_load(const samara_simulation* simulation, size_t body,
                                                samara_fluid_load* load, char* error, size_t error_size);
+
+/* ---- Since SAMARA_API_VERSION 10 ------------------------------------------------------------------------
+ */
+
+/* The fluid's forces on a body by their causes; world axes, at the centre of mass; moment (three), then
+ * force: 30 doubles without gaps. Their sum, with weight, pushes and contacts, moves the body's own mass. */
+typedef struct samara_fluid_forces {
+    double buoyancy[6]; /* N m, N: of the displaced fluid */
+    double inertia[6];  /* of the fluid that the body accelerates and carries along: its added mass */
+    double drag[6];     /* against the velocity relative to the fluid; no moment */
+    double lift[6];     /* across it, and the whole moment of both */
+    double noise[6];    /* the difference that the turbulence makes */
+} samara_fluid_forces;
+
+/* Copies the forces on the bodies first ... first + count - 1 at the end of the step that holds the
+ * simulation's time; zeros before a body's start and once it is removed. `stride` as in samara_get_poses. */
+SAMARA_API samara_status samara_get_fluid_forces(const samara_simulation* simulation, size_t first,
+                                                 size_t count, samara_fluid_forces* forces, size_t stride,
+                                                 char* error, size_t error_size);
 
 /* The work of the simulation so far. Set `size` to sizeof(samara_report) before the call. */
 typedef struct samara_report {

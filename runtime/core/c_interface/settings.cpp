@@ -25,6 +25,7 @@ static_assert(offsetof(samara_settings, bodies_collide) % alignof(samara_setting
 static_assert(offsetof(samara_body_group, table_reynolds_number) % alignof(samara_body_group) == 0);
 static_assert(offsetof(samara_body_group, patches) % alignof(samara_body_group) == 0);
 static_assert(offsetof(samara_body_group, spread_start) % alignof(samara_body_group) == 0);
+static_assert(offsetof(samara_body_group, area_density) % alignof(samara_body_group) == 0);
 
 /// What a member holds for which 0 stands where the caller gives nothing.
 std::optional<double> unless_zero(double number) {
@@ -35,6 +36,7 @@ MassSpecification read_mass(const samara_body_group& group) {
     MassSpecification mass;
     mass.density = unless_zero(group.density);
     mass.mass = unless_zero(group.mass);
+    if (const auto grams = unless_zero(group.area_density)) mass.area_density = gram * *grams;
     if (group.has_center_of_mass != 0) mass.center_of_mass = vector(group.center_of_mass, "center_of_mass");
     for (const double value : group.inertia) finite(value, "inertia");
     const Matrix3d inertia = Eigen::Map<const Matrix3d>(group.inertia);
@@ -168,7 +170,7 @@ GivenGroup of_body(const Body& body, GivenGroup group) {
     choose_open_models(body, group.open, group);
     const std::string& name = group.name.empty() ? body.name : group.name;
     if (!mass_asked_or_own(group.mass, body).is_given()) {
-        reject("density", "or mass is missing, and the body file has none; give one of the two");
+        reject("density", "or mass is missing, and the body file has none; give one of them");
     }
     if (group.added_mass && !body.kirchhoff) {
         throw StatusError(SAMARA_MISSING_DATA,

@@ -65,6 +65,18 @@ std::vector<samara::ObstacleKey> read_keys(const samara_obstacle_key* given, std
     return keys;
 }
 
+/// Returns the running simulation that has this obstacle.
+samara::Simulation& simulation_with_obstacle(samara_simulation* simulation, std::size_t obstacle) {
+    require(simulation, "simulation");
+    samara::Simulation& core = simulation->core;
+    core.require_running();
+    if (obstacle >= core.obstacle_count()) {
+        samara::reject("obstacle", fmt::format("is {}, but there are {}", obstacle, core.obstacle_count()));
+    }
+    if (core.is_obstacle_removed(obstacle)) samara::reject("obstacle", "is removed; add it again");
+    return core;
+}
+
 samara::Obstacle read_obstacle(const samara_obstacle& all, std::size_t number) {
     const samara_obstacle given = known_part(all, default_obstacle(), first_obstacle_size, "obstacle");
     samara::Obstacle obstacle;
@@ -113,17 +125,17 @@ size_t samara_simulation_obstacle_count(const samara_simulation* simulation) {
     return simulation == nullptr ? 0 : simulation->core.obstacle_count();
 }
 
+samara_status samara_remove_obstacle(samara_simulation* simulation, size_t obstacle, char* error,
+                                     size_t error_size) {
+    return guarded(error, error_size,
+                   [&] { simulation_with_obstacle(simulation, obstacle).remove_obstacle(obstacle); });
+}
+
 samara_status samara_set_obstacle_keys(samara_simulation* simulation, size_t obstacle,
                                        const samara_obstacle_key* keys, size_t count, char* error,
                                        size_t error_size) {
     return guarded(error, error_size, [&] {
-        require(simulation, "simulation");
-        samara::Simulation& core = simulation->core;
-        core.require_running();
-        if (obstacle >= core.obstacle_count()) {
-            samara::reject("obstacle",
-                           fmt::format("is {}, but there are {}", obstacle, core.obstacle_count()));
-        }
+        samara::Simulation& core = simulation_with_obstacle(simulation, obstacle);
         require(keys, "keys");
         if (count < 1) samara::reject("count", "is 0; give at least one key");
         const std::vector<samara::ObstacleKey> read = read_keys(keys, count);

@@ -164,6 +164,7 @@ std::optional<Overlap> first_overlap(const ObstacleSet& obstacles, const Contact
     const double radius = points.bounding_radius;
     std::optional<Overlap> found;
     for (const ObstacleFaces& faces : obstacles.obstacles()) {
+        if (faces.is_removed()) continue;
         const ObstaclePlace place = place_of(faces.obstacle(), time);
         const PlacedHull hull = placed(points, body, place);
         const Vector3d middle = hull.position + hull.orientation * points.middle;

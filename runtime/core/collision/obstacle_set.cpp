@@ -112,10 +112,17 @@ void ObstacleFaces::grow_tree() {
     triangles_ = std::move(ordered);
 }
 
+void ObstacleFaces::remove() {
+    is_removed_ = true;
+    obstacle_.keys.resize(1);
+    measure_displacements();
+}
+
 void ObstacleFaces::measure_displacements() {
     const auto& keys = obstacle_.keys;
     whereabouts_.setEmpty();
     fastest_ = 0.0;
+    if (is_removed_) return;
     if (!obstacle_.moves()) {
         for (const Vector3d& vertex : obstacle_.surface.vertices) whereabouts_.extend(keys[0](vertex));
         return;
@@ -160,6 +167,11 @@ void ObstacleSet::set_keys(std::size_t index, std::vector<ObstacleKey> keys) {
     measure();
 }
 
+void ObstacleSet::remove(std::size_t index) {
+    obstacles_[index].remove();
+    measure();
+}
+
 void ObstacleSet::measure() {
     whereabouts_.setEmpty();
     fastest_ = 0.0;
@@ -167,6 +179,23 @@ void ObstacleSet::measure() {
         fastest_ = std::max(fastest_, faces.fastest());
         whereabouts_.extend(faces.whereabouts());
     }
+}
+
+double distance_from(const ObstacleSet& obstacles, const Vector3d& place, double time,
+                     double within) noexcept {
+    double distance = within;
+    for (const ObstacleFaces& faces : obstacles.obstacles()) {
+        if (faces.whereabouts().squaredExteriorDistance(place) >= distance * distance) continue;
+        const ObstaclePlace at = place_of(faces.obstacle(), time);
+        const Vector3d point = at.orientation.conjugate() * (place - at.position);
+        const Vector3d reach = Vector3d::Constant(distance);
+        faces.visit_near({point - reach, point + reach}, [&](const ObstacleTriangle& triangle) {
+            const auto& [a, b, c] = triangle.corners;
+            distance = std::min(distance, (closest_point_of_triangle(point, a, b, c) - point).norm());
+        });
+        if (faces.is_closed() && faces.encloses(point)) return 0.0;
+    }
+    return distance;
 }
 
 }  // namespace samara

@@ -49,13 +49,16 @@ class ObstacleFaces {
     [[nodiscard]] const Obstacle& obstacle() const noexcept { return obstacle_; }
     /// Replaces the keys: one at least, in ascending order of time.
     void set_keys(std::vector<ObstacleKey> keys);
+    /// Takes it out of the world: it is nowhere, and stands still.
+    void remove();
+    [[nodiscard]] bool is_removed() const noexcept { return is_removed_; }
     /// Returns whether it has an inside.
     [[nodiscard]] bool is_closed() const noexcept { return is_closed_; }
     /// Returns whether a point (m, shape axes) lies inside the obstacle, which must be closed.
     [[nodiscard]] bool encloses(const Vector3d& point) const noexcept;
     /// Returns an upper bound of the speed (m/s) of its points.
     [[nodiscard]] double fastest() const noexcept { return fastest_; }
-    /// Returns a box in the world that it never leaves.
+    /// Returns a box in the world that it never leaves; an empty one once it is removed.
     [[nodiscard]] const Eigen::AlignedBox3d& whereabouts() const noexcept { return whereabouts_; }
 
     /// Calls `visit` with each face whose box intersects `box` (m, shape axes). Never allocates.
@@ -75,6 +78,7 @@ class ObstacleFaces {
 
     Obstacle obstacle_;
     bool is_closed_ = false;
+    bool is_removed_ = false;
     double fastest_ = 0.0;
     Eigen::AlignedBox3d whereabouts_;
     std::vector<Vector3d> around_;             ///< corner by corner
@@ -91,6 +95,8 @@ class ObstacleSet {
     void add(Obstacle obstacle);
     /// Replaces the keys of an obstacle, as ObstacleFaces takes them.
     void set_keys(std::size_t index, std::vector<ObstacleKey> keys);
+    /// Removes an obstacle; the others keep their numbers.
+    void remove(std::size_t index);
 
     [[nodiscard]] const std::vector<ObstacleFaces>& obstacles() const noexcept { return obstacles_; }
     /// Returns whether any of them has keys.
@@ -107,5 +113,10 @@ class ObstacleSet {
     double fastest_ = 0.0;
     Eigen::AlignedBox3d whereabouts_;
 };
+
+/// Returns the distance (m) of a place in the world from the nearest obstacle at a time (s): 0 inside a
+/// closed one, `within` where none is nearer. Never throws or allocates.
+double distance_from(const ObstacleSet& obstacles, const Vector3d& place, double time,
+                     double within) noexcept;
 
 }  // namespace samara

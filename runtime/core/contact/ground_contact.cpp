@@ -1,6 +1,8 @@
 #include "samara/core/contact/ground_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace samara {
@@ -13,6 +15,8 @@ constexpr double supporting = 1e-4;
 constexpr double hovering = 1e-3;  // additional gap, relative to the displacement by the load in a step
 // speed that counts as none, relative to the change in a step without the ground
 constexpr double still = 1e-4;
+// s: half a frame of film. A gust that could lift a body at rest does so up to this later.
+constexpr double judged_after = 0.02;
 
 Vector6d relative_to(const Vector3d& ground_velocity, const BodyState& state) {
     Vector6d velocity = state.velocity;
@@ -155,11 +159,14 @@ void keep_on_ground(const Ground& ground, BodyState& state) noexcept {
     state.at_rest = true;
 }
 
-bool is_steady(const ImmersedBody& body, const Surroundings& surroundings) noexcept {
-    return surroundings.gust.amplitude.isZero(0.0) && surroundings.wind == nullptr &&
-           (surroundings.obstacles == nullptr || !surroundings.obstacles->moves()) &&
-           (body.turbulence == Turbulence::none ||
-            (body.turbulence == Turbulence::table && surroundings.current.isZero(0.0)));
+kernel::RestJudgement judgement_of_rest(const ImmersedBody& body, const Surroundings& surroundings,
+                                        double time_step) noexcept {
+    const bool is_carried = surroundings.obstacles != nullptr && surroundings.obstacles->moves();
+    if (is_carried || body.turbulence == Turbulence::constant) return {1};
+    const bool meets_stream = surroundings.wind != nullptr || !surroundings.gust.amplitude.isZero(0.0) ||
+                              (body.turbulence == Turbulence::table && !surroundings.current.isZero(0.0));
+    if (!meets_stream) return {};
+    return {static_cast<std::uint64_t>(std::max(1.0, std::round(judged_after / time_step)))};
 }
 
 }  // namespace samara

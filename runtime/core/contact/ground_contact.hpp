@@ -5,6 +5,7 @@
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/surroundings.hpp"
 #include "samara/core/kernel/body_state.hpp"
+#include "samara/core/kernel/kernel.hpp"
 
 namespace samara {
 
@@ -57,7 +58,9 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
 /// Keeps a body at rest on the ground for a step, at the end of which the ground is as given.
 void keep_on_ground(const Ground& ground, BodyState& state) noexcept;
 
-/// Returns whether a body at rest stays so: no load on it changes, and no obstacle moves.
-bool is_steady(const ImmersedBody& body, const Surroundings& surroundings) noexcept;
+/// Returns when a body that is at rest must be judged anew: not at all where no load on it changes; every 20
+/// ms in a wind or an oscillating flow; in each step where an obstacle moves or the turbulence is constant.
+kernel::RestJudgement judgement_of_rest(const ImmersedBody& body, const Surroundings& surroundings,
+                                        double time_step) noexcept;
 
 }  // namespace samara

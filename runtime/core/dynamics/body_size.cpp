@@ -36,7 +36,16 @@ Pose in_own_units(const Pose& pose, double size) noexcept {
     return result;
 }
 
-TouchingBody touching_body(const TouchingBody& body, double size) {
+double own_share(const ImmersedBody& body, double size) noexcept {
+    return body.keeps_thickness ? 1.0 / size : 1.0;
+}
+
+Matrix6d inertia_of_size(const ImmersedBody& body, double size) {
+    return body.inertia + (own_share(body, size) - 1.0) * own_inertia(body);
+}
+
+TouchingBody touching_body(const ImmersedBody& body, double size) {
+    const Matrix6d inertia = inertia_of_size(body, size);
     const double volume = size * size * size;
     TouchingBody result;
     result.contact_points = body.contact_points;
@@ -45,10 +54,10 @@ TouchingBody touching_body(const TouchingBody& body, double size) {
     for (Vector3d& point : points.round) point *= size;
     points.bounding_radius *= size;
     points.middle *= size;
-    result.inertia.topLeftCorner<3, 3>() = (size * size * volume) * body.inertia.topLeftCorner<3, 3>();
-    result.inertia.topRightCorner<3, 3>() = (size * volume) * body.inertia.topRightCorner<3, 3>();
-    result.inertia.bottomLeftCorner<3, 3>() = (size * volume) * body.inertia.bottomLeftCorner<3, 3>();
-    result.inertia.bottomRightCorner<3, 3>() = volume * body.inertia.bottomRightCorner<3, 3>();
+    result.inertia.topLeftCorner<3, 3>() = (size * size * volume) * inertia.topLeftCorner<3, 3>();
+    result.inertia.topRightCorner<3, 3>() = (size * volume) * inertia.topRightCorner<3, 3>();
+    result.inertia.bottomLeftCorner<3, 3>() = (size * volume) * inertia.bottomLeftCorner<3, 3>();
+    result.inertia.bottomRightCorner<3, 3>() = volume * inertia.bottomRightCorner<3, 3>();
     result.inverse_inertia = result.inertia.inverse();
     return result;
 }

@@ -1,11 +1,24 @@
 #include "samara/core/dynamics/body_wind.hpp"
 
+#include <algorithm>
+
 namespace samara {
 namespace {
 
 /// Returns about the body's radius: L/2, exact for a sphere.
 double reach_of(const ImmersedBody& body) {
     return 0.5 * body.length;
+}
+
+/// Returns the share of the wind that reaches a place in the world (m) at a time (s) beside surfaces.
+double share_of(const Surroundings& surroundings, const Vector3d& place, double time) noexcept {
+    const WindSurfaceLayer& layer = surroundings.wind->surface_layer();
+    double distance = layer.height;
+    if (surroundings.ground) distance = std::min(distance, place.z() - *surroundings.ground);
+    if (surroundings.obstacles != nullptr && distance > 0.0) {
+        distance = distance_from(*surroundings.obstacles, place, time, distance);
+    }
+    return layer.share_at(distance);
 }
 
 Vector3d column(const double (&rows)[3][WindBlock::size], std::size_t lane) {
@@ -24,7 +37,7 @@ Vector3d wind_velocity(const ImmersedBody& body, const Surroundings& surrounding
     }
     constexpr double any_duration = 1e-3;  // it affects the rate alone, which is not used here
     surroundings.wind->blow(time, {reach_of(body), any_duration}, 1, block);
-    return column(block.velocity, 0);
+    return share_of(surroundings, in_world, time) * column(block.velocity, 0);
 }
 
 kernel::WindSource BodyWind::source() const noexcept {
@@ -52,14 +65,16 @@ void BodyWind::sample(const void* context, std::uint64_t step, std::size_t count
         self.unsound_.store(true, std::memory_order_relaxed);
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
-        const Vector3d velocity = column(block.velocity, lane);
+        // The shear of the layer itself, thinner than the bodies in it, is left out of the gradient.
+        const double share = share_of(surroundings, column(block.place, lane), time);
+        const Vector3d velocity = share * column(block.velocity, lane);
         Matrix3d gradient;
         for (std::size_t i = 0; i < 9; ++i) {
             gradient(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) =
-                block.gradient[i][lane];
+                share * block.gradient[i][lane];
         }
         // The fluid's own acceleration, whose pressure acts on the body as on the displaced fluid.
-        const Vector3d acceleration = column(block.rate, lane) + gradient * (flow + velocity);
+        const Vector3d acceleration = share * column(block.rate, lane) + gradient * (flow + velocity);
         const Vector3d half_change = 0.5 * self.time_step_ * acceleration;
         const Vector3d rotation =
             0.5 * Vector3d(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),

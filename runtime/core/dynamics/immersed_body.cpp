@@ -20,14 +20,6 @@
 namespace samara {
 namespace {
 
-/// Returns the body's inertia about the centre of mass: diag(I, m 1).
-Matrix6d body_inertia(const MassProperties& mass) {
-    Matrix6d inertia = Matrix6d::Zero();
-    inertia.topLeftCorner<3, 3>() = mass.inertia;
-    inertia.bottomRightCorner<3, 3>() = mass.mass * Matrix3d::Identity();
-    return inertia;
-}
-
 double rotation_scale(const Matrix6d& inertia, const Matrix3d& added_mass) {
     const Vector3d masses = eigenvalues_of(added_mass);
     const Matrix3d rotational = inertia.topLeftCorner<3, 3>();
@@ -139,6 +131,13 @@ Matrix6d fluid_inertia_of(const Body& body, const BodyPhysics& physics, const Fl
 
 }  // namespace
 
+Matrix6d own_inertia(const ImmersedBody& body) {
+    Matrix6d inertia = Matrix6d::Zero();
+    inertia.topLeftCorner<3, 3>() = body.own_inertia;
+    inertia.bottomRightCorner<3, 3>() = body.mass * Matrix3d::Identity();
+    return inertia;
+}
+
 void prepare(ImmersedBody& body) {
     body.inverse_inertia = body.inertia.inverse();
     body.constants = step_constants(body);
@@ -155,6 +154,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     ImmersedBody result;
     result.name = name;
     result.mass = mass.mass;
+    result.keeps_thickness = mass_asked_or_own(physics.mass, body).area_density.has_value();
     result.volume = body.moments.volume;
     result.fluid_density = fluid.density;
     result.viscosity = fluid.viscosity;
@@ -165,7 +165,8 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
     result.added_mass = fluid_inertia.bottomRightCorner<3, 3>();
     result.added_inertia = fluid_inertia.topLeftCorner<3, 3>();
     result.added_coupling = fluid_inertia.topRightCorner<3, 3>();
-    result.inertia = body_inertia(mass) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
+    result.inertia =
+        own_inertia(result) + result.to_centroid.transpose() * fluid_inertia * result.to_centroid;
     if (Eigen::LLT<Matrix6d>(result.inertia).info() != Eigen::Success) {
         throw Error(
             fmt::format("body '{}': the sum of its inertia and its added inertia is not positive definite; "
@@ -301,7 +302,8 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
     const MassSpecification mass = mass_asked_or_own(physics.mass, body);
     if (!mass.is_given()) {
         throw Error(fmt::format(
-            "body '{}': has no density, and its body file has no mass; give density or mass", name));
+            "body '{}': has no density, and its body file has no mass; give density, mass or area_density",
+            name));
     }
     if (const std::string error = error_of(mass); !error.empty()) {
         throw Error(fmt::format("body '{}': {}", name, error));

@@ -28,10 +28,12 @@ struct TouchingBody {
 /// follow.
 struct ImmersedBody : TouchingBody {
     std::string name;
-    double mass = 0.0;                           ///< kg
-    double volume = 0.0;                         ///< m^3
-    double fluid_density = 0.0;                  ///< kg/m^3
-    double viscosity = 0.0;                      ///< dynamic, Pa s
+    double mass = 0.0;  ///< kg
+    bool keeps_thickness =
+        false;                   ///< whether the mass of other sizes grows with their square, not their cube
+    double volume = 0.0;         ///< m^3
+    double fluid_density = 0.0;  ///< kg/m^3
+    double viscosity = 0.0;      ///< dynamic, Pa s
     Vector3d center_of_mass = Vector3d::Zero();  ///< m, shape axes from the shape's origin
     /// m, from the centre of mass to the centroid of the volume
     Vector3d center_of_buoyancy = Vector3d::Zero();
@@ -76,6 +78,8 @@ struct ImmersedBody : TouchingBody {
 };
 inline constexpr int projection_subdivisions = 16;
 
+/// Returns the inertia of the body alone about the centre of mass, order (omega, v): diag(I, m 1).
+Matrix6d own_inertia(const ImmersedBody& body);
 /// Returns the constants of the steps, derived from the members.
 StepConstants step_constants(const ImmersedBody& body);
 /// Computes the derived members: inverse_inertia and constants.

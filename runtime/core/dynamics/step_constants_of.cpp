@@ -119,6 +119,11 @@ void set_inertia(const ImmersedBody& body, StepConstants& c) {
     c.inverse_linear = triple(moving.diagonal().cwiseInverse());
     c.weight = (body.mass - body.fluid_density * body.volume) / (mass * length);
     c.weight_moment = triple(-body.mass / (mass * length * length) * body.center_of_buoyancy);
+    c.keeps_thickness = body.keeps_thickness;
+    c.own_mass = body.mass / mass;
+    const Matrix6d own = from_centroid.transpose() * own_inertia(body) * from_centroid;
+    c.own_angular = symmetric(own.topLeftCorner<3, 3>() / (mass * length * length));
+    c.own_coupling = square(own.topRightCorner<3, 3>() / (mass * length));
     c.tip_square = 0.25 * body.length * body.length / (length * length);
     c.munk_rate = body.rotation_scale * length;
 }

@@ -69,7 +69,8 @@ struct BatchGround {
         }
         const Vector3d between_steps = Vector3d::Constant(fastest * time_step);
         return {.resolve = resolve,
-                .stay = is_steady(body, surroundings) ? stay : nullptr,
+                .stay = stay,
+                .judgement = judgement_of_rest(body, surroundings, time_step),
                 .moves = fastest > 0.0,
                 .context = this,
                 .reach = highest + radius + fastest * time_step,
@@ -196,17 +197,17 @@ void Batch::set_noise(std::size_t index, const Noise& noise) noexcept {
 
 BatchReport Batch::advance(const Surroundings& surroundings, double start, double time_step,
                            std::uint64_t first_step, std::uint64_t steps, int threads) {
-    std::vector<Vector3d> gravities;
+    gravities_.clear();
     for (std::uint64_t step = first_step; step < first_step + steps; ++step) {
-        gravities.push_back(apparent_gravity(surroundings, step_time(start, time_step, step),
-                                             step_time(start, time_step, step + 1)));
+        gravities_.push_back(apparent_gravity(surroundings, step_time(start, time_step, step),
+                                              step_time(start, time_step, step + 1)));
     }
     const bool sized = !sizes_.empty();
     const double largest = sized ? *std::max_element(sizes_.begin(), sizes_.end()) : 1.0;
     ContactRecord* records = records_.empty() ? nullptr : records_.data();
     const BatchGround ground{*this, *body_, largest, surroundings, records};
     const BodyWind wind(*body_, surroundings, start, time_step);
-    const kernel::BlockSteps task{.gravities = gravities.data(),
+    const kernel::BlockSteps task{.gravities = gravities_.data(),
                                   .start = start,
                                   .time_step = time_step,
                                   .first_step = first_step,

@@ -83,6 +83,7 @@ class Batch {
     std::vector<StateBlock> blocks_;
     std::vector<double> sizes_;                    ///< empty where all are the shape's
     std::vector<TouchingBody> touching_;           ///< of each size, where there is something to touch
+    std::vector<Vector3d> gravities_;              ///< of the steps of a call
     std::vector<kernel::ExternalLoads> external_;  ///< of each block; empty where nothing acts
     std::vector<ContactRecord> records_;           ///< of each body; empty where not recorded
     std::vector<std::uint8_t>

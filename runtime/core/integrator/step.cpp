@@ -1,6 +1,7 @@
 #include "samara/core/integrator/step.hpp"
 
 #include "samara/core/contact/ground_contact.hpp"
+#include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
 #include "samara/core/dynamics/loads.hpp"
 #include "samara/core/kernel/kernel.hpp"
@@ -33,8 +34,8 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
     const double time = step_time(start, time_step, step);
     const double end = step_time(start, time_step, step + 1);
     const SampledTurbulence& seen = state.sampled_turbulence;
-    if (state.at_rest && seen.velocity.isZero(0.0) && seen.angular_velocity.isZero(0.0) &&
-        is_steady(body, surroundings)) {
+    const bool is_still = seen.velocity.isZero(0.0) && seen.angular_velocity.isZero(0.0);
+    if (state.at_rest && judgement_of_rest(body, surroundings, time_step).skips(step, is_still)) {
         keep_on_ground(ground_in_flow(surroundings, time, end), result.state);
         return result;
     }
@@ -70,14 +71,6 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
 }
 
 namespace {
-
-/// Returns the inertia of the fluid alone about the centre of mass: K less the body's own.
-Matrix6d added_inertia_of(const ImmersedBody& body) {
-    Matrix6d added = body.inertia;
-    added.topLeftCorner<3, 3>() -= body.own_inertia;
-    added.bottomRightCorner<3, 3>() -= body.mass * Matrix3d::Identity();
-    return added;
-}
 
 /// The wind of the world in the lengths and times of a body of another size (body_size.hpp).
 struct SizedWind {
@@ -127,10 +120,70 @@ Matrix6d in_world_units(const Matrix6d& matrix, double size, double linear) {
     return result;
 }
 
-}  // namespace
+/// The parts of the fluid's load on a body in body axes about the centre of mass, in its own units.
+struct LoadParts {
+    Vector6d transport;  ///< of the fluid's momentum, but for the body's own acceleration
+    Vector6d buoyancy;
+    Vector6d loads = Vector6d::Zero();
+    Matrix6d damping = Matrix6d::Zero();
+    Vector3d relative_velocity;  ///< of the centroid
+};
 
-FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
-                        double time_step, const BodyState& state, const Noise& noise, std::uint64_t step) {
+/// Where and when a body is, for the parts of its load.
+struct LoadPlace {
+    const ImmersedBody& body;
+    const BodyState& state;
+    Matrix3d to_body;
+    Vector3d gravity;      ///< world axes, own units
+    Vector3d in_the_flow;  ///< apparent_gravity(), likewise
+    double own_step;
+};
+
+LoadParts load_parts(const LoadPlace& at, const kernel::SampledStream& stream) {
+    const ImmersedBody& body = at.body;
+    LoadParts parts;
+    // The acceleration of the stream that the body is in, in the world.
+    const Vector3d acceleration =
+        at.to_body * ((stream.end - stream.begin) / at.own_step + at.gravity - at.in_the_flow);
+    const Matrix6d added = body.inertia - own_inertia(body);
+    const Vector3d omega = at.state.velocity.head<3>();
+    Vector6d relative = at.state.velocity;
+    relative.tail<3>() -= at.to_body * stream.begin;
+    const Vector3d moving = relative.tail<3>();
+    const Vector6d momentum = added * relative;
+    // The fluid's momentum in the rotating axes, and the part of the acceleration relative to the stream, in
+    // these axes, that is not the body's own.
+    Vector6d transport;
+    transport << Vector3d::Zero(), omega.cross(moving) + acceleration;
+    parts.transport = added * transport;
+    parts.transport.head<3>() += momentum.head<3>().cross(omega) + momentum.tail<3>().cross(moving);
+    parts.transport.tail<3>() += momentum.tail<3>().cross(omega);
+
+    const Vector3d upward = -body.fluid_density * body.volume * (at.to_body * at.gravity - acceleration);
+    parts.buoyancy << body.center_of_buoyancy.cross(upward), upward;
+
+    const Vector6d of_centroid = body.to_centroid * relative;
+    parts.relative_velocity = of_centroid.tail<3>();
+    if (body.loads == Loads::none) return parts;
+    const Vector3d sampled_rotation = at.to_body * stream.rotation;
+    const LoadMatrices loads = load_matrices(body, of_centroid, sampled_rotation,
+                                             at.to_body * stream.wake_fluctuation, shares_of(at.state.wake));
+    parts.loads = body.to_centroid.transpose() *
+                  (loads.relative.leftCols<3>() * sampled_rotation - loads.whole * of_centroid);
+    parts.damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;
+    return parts;
+}
+
+/// A body in its next step: its place, the stream that it is in, and the stream without the turbulence.
+struct NextStep {
+    LoadPlace at;
+    kernel::SampledStream stream;
+    kernel::SampledStream calm;
+    Vector6d noise;  ///< the wrench of a noise on the velocity itself, where that is the model
+};
+
+NextStep next_step(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
+                   double time_step, const BodyState& state, const Noise& noise, std::uint64_t step) {
     const double size_square = size * size;
     const double own_step = time_step / size_square;
     const BodyWind body_wind(body, surroundings, start, time_step);
@@ -138,53 +191,67 @@ FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surrounding
     BodyState next = state;
     kernel::SampledStream stream = sampled_stream(body, size, own_step, wind.source(), noise, step, next);
     if (!stream.moves) stream = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
-    const Matrix3d to_world = state.orientation.toRotationMatrix();
-    const Matrix3d to_body = to_world.transpose();
-    const Vector3d gravity = size * size_square * surroundings.gravity;
-    const Vector3d in_the_flow = size * size_square *
-                                 apparent_gravity(surroundings, step_time(start, time_step, step),
-                                                  step_time(start, time_step, step + 1));
-    // The acceleration of the stream that the body is in, in the world.
-    const Vector3d acceleration = to_body * ((stream.end - stream.begin) / own_step + gravity - in_the_flow);
-
-    const Matrix6d added = added_inertia_of(body);
-    const Vector3d omega = state.velocity.head<3>();
-    Vector6d relative = state.velocity;
-    relative.tail<3>() -= to_body * stream.begin;
-    const Vector3d moving = relative.tail<3>();
-    const Vector6d momentum = added * relative;
-    // The fluid's momentum in the rotating axes, and the part of the acceleration relative to the stream, in
-    // these axes, that is not the body's own.
-    Vector6d transport;
-    transport << Vector3d::Zero(), omega.cross(moving) + acceleration;
-    Vector6d wrench = added * transport;
-    wrench.head<3>() += momentum.head<3>().cross(omega) + momentum.tail<3>().cross(moving);
-    wrench.tail<3>() += momentum.tail<3>().cross(omega);
-
-    const Vector3d lift = -body.fluid_density * body.volume * (to_body * gravity - acceleration);
-    wrench.head<3>() += body.center_of_buoyancy.cross(lift);
-    wrench.tail<3>() += lift;
-
-    Matrix6d damping = Matrix6d::Zero();
-    if (body.loads != Loads::none) {
-        const Vector6d of_centroid = body.to_centroid * relative;
-        const Vector3d sampled_rotation = to_body * stream.rotation;
-        const LoadMatrices loads = load_matrices(body, of_centroid, sampled_rotation,
-                                                 to_body * stream.wake_fluctuation, shares_of(state.wake));
-        wrench += body.to_centroid.transpose() *
-                  (loads.relative.leftCols<3>() * sampled_rotation - loads.whole * of_centroid);
-        damping = body.to_centroid.transpose() * loads.whole * body.to_centroid;
+    kernel::SampledStream calm = stream;
+    if (body.constants.langevin == Langevin::wake) {
+        calm.begin -= stream.wake_fluctuation;
+        calm.end -= stream.wake_fluctuation;
+    } else if (body.constants.langevin == Langevin::sampled_turbulence && stream.moves) {
+        calm.begin -= state.sampled_turbulence.velocity;
+        calm.end -= next.sampled_turbulence.velocity;
     }
-    // Noise on the velocity itself, where that is the model.
-    wrench += body.inertia * (next.velocity - state.velocity) / own_step;
+    calm.rotation -= stream.moves ? next.sampled_turbulence.angular_velocity : Vector3d::Zero();
+    calm.wake_fluctuation.setZero();
+    return {{body, state, state.orientation.toRotationMatrix().transpose(),
+             size * size_square * surroundings.gravity,
+             size * size_square *
+                 apparent_gravity(surroundings, step_time(start, time_step, step),
+                                  step_time(start, time_step, step + 1)),
+             own_step},
+            stream,
+            calm,
+            inertia_of_size(body, size) * (next.velocity - state.velocity) / own_step};
+}
 
+}  // namespace
+
+FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
+                        double time_step, const BodyState& state, const Noise& noise, std::uint64_t step) {
+    const NextStep next = next_step(body, size, surroundings, start, time_step, state, noise, step);
+    const LoadParts parts = load_parts(next.at, next.stream);
+    Vector6d wrench = parts.transport + parts.buoyancy + parts.loads + next.noise;
+    const Matrix3d to_world = next.at.to_body.transpose();
     Matrix6d rotation = Matrix6d::Zero();
     rotation.topLeftCorner<3, 3>() = to_world;
     rotation.bottomRightCorner<3, 3>() = to_world;
     wrench.head<3>() *= size;
+    const Matrix6d added = body.inertia - own_inertia(body);
     return {rotation * wrench,
-            rotation * in_world_units(added, size, size * size_square) * rotation.transpose(),
-            rotation * in_world_units(damping, size, size) * rotation.transpose()};
+            rotation * in_world_units(added, size, size * size * size) * rotation.transpose(),
+            rotation * in_world_units(parts.damping, size, size) * rotation.transpose()};
+}
+
+FluidForces fluid_forces_of(const ImmersedBody& body, double size, const Surroundings& surroundings,
+                            double start, double time_step, const BodyState& state, const Noise& noise,
+                            std::uint64_t step) {
+    const NextStep next = next_step(body, size, surroundings, start, time_step, state, noise, step);
+    const LoadParts parts = load_parts(next.at, next.calm);
+    const LoadParts whole = load_parts(next.at, next.stream);
+    Vector6d acceleration = state.acceleration;  // of the world, in body axes
+    acceleration.tail<3>() += state.velocity.head<3>().cross(state.velocity.tail<3>());
+    const Matrix6d added = body.inertia - own_inertia(body);
+    Vector6d drag = Vector6d::Zero();
+    if (!parts.relative_velocity.isZero(0.0)) {
+        const Vector3d path = parts.relative_velocity.normalized();
+        drag.tail<3>() = path * path.dot(parts.loads.tail<3>());
+    }
+    const Matrix3d to_world = next.at.to_body.transpose();
+    const auto in_world = [&](const Vector6d& wrench) {
+        return Wrench{to_world * wrench.tail<3>(), size * (to_world * wrench.head<3>())};
+    };
+    return {in_world(parts.buoyancy), in_world(parts.transport - added * acceleration), in_world(drag),
+            in_world(parts.loads - drag),
+            in_world(whole.transport - parts.transport + whole.buoyancy - parts.buoyancy + whole.loads -
+                     parts.loads + next.noise)};
 }
 
 }  // namespace samara

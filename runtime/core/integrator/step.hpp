@@ -51,4 +51,9 @@ StepResult advance(const ImmersedBody& body, const Surroundings& surroundings, d
 FluidLoad fluid_load_of(const ImmersedBody& body, double size, const Surroundings& surroundings, double start,
                         double time_step, const BodyState& state, const Noise& noise, std::uint64_t step);
 
+/// Returns the parts of that load, of a body that moved with the acceleration of its last step.
+FluidForces fluid_forces_of(const ImmersedBody& body, double size, const Surroundings& surroundings,
+                            double start, double time_step, const BodyState& state, const Noise& noise,
+                            std::uint64_t step);
+
 }  // namespace samara

@@ -261,7 +261,7 @@ HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& extern
 struct MovingLanes {
     MovingLanes(const kernel::Contact& contact, const StateBlock& block, std::uint64_t step,
                 std::size_t first, std::size_t lanes) {
-        if (contact.stay == nullptr && first + lanes <= block.bodies && step >= block.last_start) {
+        if (contact.resolve == nullptr && first + lanes <= block.bodies && step >= block.last_start) {
             std::fill_n(moves, lanes, 1.0);
             any_moves = true;
             return;
@@ -269,8 +269,9 @@ struct MovingLanes {
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const bool used = first + lane < block.bodies;
             const bool waits = used && step < block.first_step[first + lane];
-            const bool rests =
-                used && !waits && contact.stay != nullptr && lies_in_stillness(block, first + lane);
+            const bool rests = used && !waits && contact.resolve != nullptr &&
+                               block.at_rest[first + lane] != 0 &&
+                               contact.judgement.skips(step, is_still(block, first + lane));
             moves[lane] = used && !rests && !waits ? 1.0 : 0.0;
             any_moves = any_moves || moves[lane] != 0.0;
             any_rests = any_rests || rests;
@@ -315,6 +316,7 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
 
     const V size = task.sized ? V(hn::Load(tag, block.size_of + first)) : V(1.0);
     const V size_square = size * size;
+    const V own_excess = c.keeps_thickness ? V(1.0) / size - V(1.0) : V(0.0);
     const V h = V(task.time_step) / size_square;
     const V moves(hn::Load(tag, moving_lanes.moves));
     const bool has_contact = task.contact.resolve != nullptr;
@@ -365,7 +367,7 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
         StateBlock kept;
         if (!all_whole) store_step_state(tag, step_state, kept, first);
         implicit_step(c, gravity, substep, sees_fluid, all_whole ? sampled : part_of(sampled, i, divisor),
-                      pushed ? &push : nullptr, step_state);
+                      pushed ? &push : nullptr, own_excess, step_state);
         if (!all_whole)
             step_state =
                 select_step_state<Tag>(V(i) < substeps, step_state, load_step_state(tag, kept, first));

@@ -15,6 +15,17 @@
 /// every instruction set.
 namespace samara::kernel {
 
+/// When a body that is at rest is judged anew; in all other steps it keeps its place.
+struct RestJudgement {
+    std::uint64_t every = 0;  ///< steps between two judgements; 0: none, where no load on it changes
+
+    /// Returns whether a body at rest keeps its place in a step without a judgement. `is_still`: it samples
+    /// no turbulence.
+    [[nodiscard]] bool skips(std::uint64_t step, bool is_still) const noexcept {
+        return every == 0 ? is_still : step % every != 0;
+    }
+};
+
 /// The contacts of a body after each implicit step, where there is ground or an obstacle.
 struct Contact {
     /// Corrects the state of body number `body` after a substep (s) that ended at a time (s, of the world)
@@ -22,11 +33,11 @@ struct Contact {
     using Resolve = void (*)(const void* context, std::size_t body, double time, double substep,
                              const BodyState& before, BodyState& state) noexcept;
     Resolve resolve = nullptr;
-    /// Keeps a body at rest on the ground over a step between two times; null where rest must be judged anew
-    /// in each step.
+    /// Keeps a body at rest on the ground over a step between two times.
     using Stay = void (*)(const void* context, std::size_t body, double begin, double end,
                           BodyState& state) noexcept;
     Stay stay = nullptr;
+    RestJudgement judgement;
     bool moves = false;  ///< whether the ground moves, in the flow's frame
     const void* context = nullptr;
     double reach = 0.0;   ///< m, in the flow's frame: bodies whose centre is higher do not touch the ground

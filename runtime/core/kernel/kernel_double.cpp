@@ -148,7 +148,7 @@ void step_one(const StepConstants& c, const Vector3d& gravity, double h, const k
     const Stream<One> whole{triple_of(stream.begin), triple_of(stream.end), triple_of(stream.rotation),
                             stream.on_loads_alone, triple_of(stream.wake_fluctuation)};
     implicit_step(c, triple_of(gravity), One(h), stream.moves, part_of(whole, substep, One(substeps)),
-                  external == nullptr ? nullptr : &push, step_state);
+                  external == nullptr ? nullptr : &push, One(0.0), step_state);
     keep(step_state, state);
 }
 
@@ -203,7 +203,7 @@ void lone_steps(const StepConstants& c, const kernel::BlockSteps& task, const No
         for (int i = 0; i < begun.substeps; ++i) {
             implicit_step(c, gravity, h, begun.sees_fluid,
                           is_whole ? begun.stream : part_of(begun.stream, i, One(begun.substeps)),
-                          external == nullptr ? nullptr : &push, step_state);
+                          external == nullptr ? nullptr : &push, One(0.0), step_state);
         }
     }
     keep(step_state, state);

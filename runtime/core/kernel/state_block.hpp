@@ -84,10 +84,9 @@ inline void keep_state(const BodyState& state, StateBlock& block, std::size_t la
     block.at_rest[lane] = state.at_rest ? 1 : 0;
 }
 
-/// Returns whether a body rests on the ground and samples no turbulence.
-inline bool lies_in_stillness(const StateBlock& block, std::size_t lane) noexcept {
-    return block.at_rest[lane] != 0 &&
-           std::all_of(block.numbers + 13, block.numbers + 19,
+/// Returns whether a body samples no turbulence.
+inline bool is_still(const StateBlock& block, std::size_t lane) noexcept {
+    return std::all_of(block.numbers + 13, block.numbers + 19,
                        [&](const double(&row)[StateBlock::size]) { return row[lane] == 0.0; });
 }
 

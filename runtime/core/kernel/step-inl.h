@@ -86,7 +86,10 @@ struct StepStart {
     WakeState<V> wake;                                      // at the begin of the step
     bool fluid_rotates;
     bool is_pushed;
-    Push<V> push;  // body axes, about the centroid
+    Push<V> push;      // body axes, about the centroid
+    V own_excess;      // the body's own mass over that of its constants, less one
+    V isotropic_mass;  // over m*: 1 where that is zero
+    V weight;          // as of the constants
     /// Whether the body rotates by more than a radian: its system is then solved once more for the rounding
     /// errors, since the elimination does not look for the best pivots.
     typename NumberTraits<V>::Mask rotates_far;
@@ -161,18 +164,25 @@ struct StepSystem {
 
 /// Stage 1: the inertia, and the momenta in the middle.
 template <class V>
-HWY_INLINE void add_inertia(const StepConstants& c, const StepMiddle<V>& middle, StepSystem<V>& system) {
+HWY_INLINE void add_inertia(const StepConstants& c, const StepStart<V>& start, const StepMiddle<V>& middle,
+                            StepSystem<V>& system) {
     // The part of the linear momentum along the velocity (m* v, in units of m*) acts as a force alone: as p x
     // v its moment would vanish only where the v inside p and the one it acts on are parallel, and otherwise
     // spin even a sphere.
     StepMatrix<V>& matrix = system.matrix;
     matrix.angular = broadcast_symmetric<V>(c.inertia_angular);
     const Square<V> directed_inertia = broadcast_symmetric<V>(c.directed_inertia);
-    matrix.linear = plus_diagonal(directed_inertia, V(1.0));
+    matrix.linear = plus_diagonal(directed_inertia, start.isotropic_mass);
+    if (c.keeps_thickness) {
+        matrix.angular = matrix.angular + start.own_excess * broadcast_symmetric<V>(c.own_angular);
+    }
     system.angular_momentum = matrix.angular * middle.omega;
     system.momentum = directed_inertia * middle.velocity;
     if (c.coupled) {
         matrix.angular_linear = broadcast<V>(c.inertia_coupling);
+        if (c.keeps_thickness) {
+            matrix.angular_linear = matrix.angular_linear + start.own_excess * broadcast<V>(c.own_coupling);
+        }
         matrix.linear_angular = transposed(matrix.angular_linear);
         system.angular_momentum = system.angular_momentum + matrix.angular_linear * middle.velocity;
         system.momentum = system.momentum + matrix.linear_angular * middle.omega;
@@ -189,9 +199,12 @@ HWY_INLINE void add_forces(const StepConstants& c, const StepStart<V>& start, co
     const HalfTurn<V> under_body{middle.half_rotation};
     const Triple<V> gravity = under_body(start.gravity);
     system.moment = cross(system.angular_momentum, start.omega) + cross(system.momentum, start.velocity);
-    system.force =
-        V(c.weight) * gravity + cross(system.momentum, start.omega) - cross(middle.omega, start.velocity);
-    if (c.off_center) system.moment = system.moment + cross(broadcast<V>(c.weight_moment), gravity);
+    system.force = start.weight * gravity + cross(system.momentum, start.omega) -
+                   start.isotropic_mass * cross(middle.omega, start.velocity);
+    if (c.off_center) {
+        system.moment =
+            system.moment + (V(1.0) + start.own_excess) * cross(broadcast<V>(c.weight_moment), gravity);
+    }
     if (start.is_pushed) {
         system.moment = system.moment + under_body(start.push.moment);
         system.force = system.force + under_body(start.push.force);
@@ -238,12 +251,13 @@ HWY_INLINE void add_loads(const StepConstants& c, const StepStart<V>& start, Ste
 
 /// Stage 4: the rotation of the momenta over the step. The matrix is complete with it and is factorised.
 template <class V>
-HWY_INLINE void add_rotation_of_momenta(const StepMiddle<V>& middle, StepSystem<V>& system) {
+HWY_INLINE void add_rotation_of_momenta(const StepStart<V>& start, const StepMiddle<V>& middle,
+                                        StepSystem<V>& system) {
     StepMatrix<V>& matrix = system.matrix;
     matrix.angular = plus_cross(matrix.angular, -system.step * system.angular_momentum);
     matrix.angular_linear = plus_cross(matrix.angular_linear, -system.step * system.momentum);
     matrix.linear_angular = plus_cross(matrix.linear_angular, -system.step * system.momentum);
-    matrix.linear = plus_cross(matrix.linear, system.step * middle.omega);
+    matrix.linear = plus_cross(matrix.linear, system.step * start.isotropic_mass * middle.omega);
     matrix.factorise();
 }
 
@@ -273,10 +287,10 @@ HWY_INLINE void solve_midpoint(const StepConstants& c, const StepStart<V>& start
     middle.theta = V(0.5);
     StepSystem<V> system;
     system.step = V(0.5) * start.h;
-    add_inertia(c, middle, system);
+    add_inertia(c, start, middle, system);
     add_forces(c, start, middle, system);
     if (c.loads != Loads::none) add_loads(c, start, middle, system);
-    add_rotation_of_momenta(middle, system);
+    add_rotation_of_momenta(start, middle, system);
     middle.change = solved_change(system, start);
     middle.omega = start.omega + middle.change.omega;
     middle.velocity = start.velocity + middle.change.velocity;
@@ -349,15 +363,24 @@ HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>
     return found;
 }
 
+/// Returns the weight over gravity, as StepConstants has it, of a body with more mass of its own.
+template <class V>
+HWY_INLINE V weight_of(const StepConstants& c, V own_excess) {
+    return V(c.weight) + own_excess * V(c.own_mass * c.inverse_length);
+}
+
 /// Returns the start of a step. `gravity`: world axes; `velocity`: of the centre of mass, relative to the
 /// sampled turbulence.
 template <class V>
 HWY_INLINE StepStart<V> step_start(const StepConstants& c, const Square<V>& to_world,
                                    const Triple<V>& gravity, V h, bool fluid_rotates,
-                                   const Triple<V>& sampled_rotation, const Triple<V>& velocity,
+                                   const Triple<V>& sampled_rotation, const Triple<V>& velocity, V own_excess,
                                    const StepState<V>& step_state) {
     StepStart<V> start;
     start.h = h;
+    start.own_excess = own_excess;
+    start.isotropic_mass = V(1.0) + own_excess * V(c.own_mass);
+    start.weight = weight_of(c, own_excess);
     start.omega = step_state.angular_velocity;
     start.velocity = to_centroid(c, step_state.angular_velocity, velocity);
     start.gravity = transposed_times(to_world, gravity);
@@ -392,9 +415,11 @@ HWY_INLINE bool sees_turbulence(const StepConstants& c) {
 /// Where the body samples turbulence, the step is taken in the frame of that uniform stream, as in that of a
 /// current: velocities are relative to it, and its acceleration is subtracted from gravity, for body and
 /// displaced fluid alike (docs/explanation/noise-and-wake.md#seen-fluid). `push`: null where there is none.
+/// `own_excess`: the body's own mass over that of the constants, less one.
 template <class V>
 HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
-                              const Stream<V>& stream, const Push<V>* push, StepState<V>& step_state) {
+                              const Stream<V>& stream, const Push<V>* push, V own_excess,
+                              StepState<V>& step_state) {
     const Square<V> to_world = rotation_matrix(step_state.orientation);
     const V half = V(0.5) * h;
     const V rate = V(1.0) / h;
@@ -409,11 +434,11 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
     if (fluid_changes) {
         const Triple<V> acceleration = rate * (stream.end - stream.begin);
         apparent_gravity = apparent_gravity - acceleration;
-        pushed = V(-c.weight * c.length) * transposed_times(to_world, acceleration);
+        pushed = -(V(c.length) * weight_of(c, own_excess)) * transposed_times(to_world, acceleration);
         guess_acceleration = guess_acceleration + pushed;
     }
     StepStart<V> start = step_start(c, to_world, apparent_gravity, h, fluid_changes, stream.rotation,
-                                    relative_velocity, step_state);
+                                    relative_velocity, own_excess, step_state);
     start.wake_fluctuation = c.has_side_pressure
                                  ? V(c.inverse_length) * transposed_times(to_world, stream.wake_fluctuation)
                                  : no_vector<V>();

@@ -69,8 +69,14 @@ struct StepConstants {
     Triple<double> inverse_linear{};
     double weight = 0;               ///< (m - rho_f V) / (m* l): times gravity the force
     Triple<double> weight_moment{};  ///< m r / (m* l^2), r from the centroid to the centre of mass
-    double tip_square = 0;           ///< (L / (2 l))^2
-    double munk_rate = 0;            ///< times the speed: the rate at which the Munk moment rotates the body
+    /// Whether the mass grows with the square of the size. Then the next three, of the body alone, count once
+    /// more times 1/size - 1.
+    bool keeps_thickness = false;
+    double own_mass = 0;            ///< m / m*
+    Square<double> own_angular{};   ///< about the centroid, over m* l^2
+    Square<double> own_coupling{};  ///< over m* l
+    double tip_square = 0;          ///< (L / (2 l))^2
+    double munk_rate = 0;           ///< times the speed: the rate at which the Munk moment rotates the body
 
     Loads loads = Loads::none;
     double steady_factor = 0;    ///< rho_f A l / (2 m*)

@@ -61,9 +61,9 @@ struct CoefficientLoads {
 /// motion hold. New members must be listed in visit_members() below, on which the scene file, the C
 /// interface, saved states and the sharing between equal bodies rest.
 struct BodyPhysics {
-    MassSpecification mass;         ///< density, or mass and how it is distributed; default: the body file's
-    Loads loads = Loads::table;     ///< where force and moment come from
-    CoefficientLoads coefficients;  ///< where the loads are coefficients
+    MassSpecification mass;                       ///< default: the body file's
+    Loads loads = Loads::table;                   ///< where force and moment come from
+    CoefficientLoads coefficients;                ///< where the loads are coefficients
     std::optional<double> table_reynolds_number;  ///< at which alone tables are read
     int patches = 1;                     ///< of the surface, each of which bears loads by its own velocity
     bool added_mass = true;              ///< whether the fluid's inertia is part of the body's
@@ -84,10 +84,11 @@ template <typename Physics, typename Visit>
 void visit_members(Physics& physics, const Visit& visit) {
     auto& [mass, loads, coefficients, table_reynolds_number, patches, added_mass, dynamic, turbulence,
            turbulent_kinetic_energy, dissipation_rate, langevin] = physics;
-    auto& [density, total_mass, center_of_mass, inertia] = mass;
+    auto& [density, total_mass, area_density, center_of_mass, inertia] = mass;
     auto& [drag_coefficient, lift_coefficient, reference_area, normal, center_of_pressure] = coefficients;
     visit("density", density);
     visit("mass", total_mass);
+    visit("area_density", area_density);
     visit("center_of_mass", center_of_mass);
     visit("inertia", inertia);
     visit("loads", loads);

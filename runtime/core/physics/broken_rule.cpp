@@ -66,12 +66,15 @@ Broken broken_rule(const MassSpecification& mass) {
         mass.inertia && (*mass.inertia - mass.inertia->transpose()).norm() > 1e-9 * mass.inertia->norm();
     return first_of({outside(positive_number, "density", mass.density),
                      outside(positive_number, "mass", mass.mass),
+                     outside(positive_number, "area_density", mass.area_density),
                      broken_if(is_askew, "inertia", "must be symmetric"),
-                     broken_if(mass.density && mass.mass, "density", "excludes mass; give one of the two"),
+                     broken_if(mass.given() > 1, mass.area_density ? "area_density" : "density",
+                               mass.area_density ? "excludes density and mass; give one of the three"
+                                                 : "excludes mass; give one of the two"),
                      broken_if(!mass.mass && (mass.center_of_mass || mass.inertia),
                                mass.inertia ? "inertia" : "center_of_mass",
-                               mass.density ? "contradicts a uniform density; give mass instead of density"
-                                            : "needs mass; give mass too")});
+                               mass.is_given() ? "contradicts a uniform density; give mass instead"
+                                               : "needs mass; give mass too")});
 }
 
 Broken broken_rule(const BodyPhysics& physics) {

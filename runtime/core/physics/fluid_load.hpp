@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "samara/core/base/linear_algebra.hpp"
+#include "samara/core/physics/wrench.hpp"
 
 namespace samara {
 
@@ -21,5 +25,24 @@ struct FluidLoad {
     Matrix6d added_inertia = Matrix6d::Zero();  ///< kg m^2, kg m, kg; symmetric, positive semidefinite
     Matrix6d damping = Matrix6d::Zero();        ///< N m s, N s, N s/m; its symmetric part is never negative
 };
+
+/// The fluid's forces on a body as it moves, and their moments about the centre of mass; world axes. Together
+/// with weight, pushes and contacts they are what moves the body's own mass.
+struct FluidForces {
+    Wrench buoyancy;  ///< of the displaced fluid, in an accelerating flow too
+    Wrench inertia;   ///< of the fluid that the body accelerates and carries along: its added mass
+    Wrench drag;      ///< the part of the steady and moving loads against the relative velocity; no moment
+    Wrench lift;      ///< the part of these loads across it, and their whole moment
+    Wrench noise;     ///< the difference that the turbulence makes to all of them
+
+    /// Returns the sum.
+    [[nodiscard]] Wrench total() const { return buoyancy + inertia + drag + lift + noise; }
+};
+
+/// The parts of FluidForces in order, with their names in files and interfaces.
+inline constexpr std::array parts_of_fluid_forces = {
+    std::pair{"buoyancy", &FluidForces::buoyancy}, std::pair{"inertia", &FluidForces::inertia},
+    std::pair{"drag", &FluidForces::drag}, std::pair{"lift", &FluidForces::lift},
+    std::pair{"noise", &FluidForces::noise}};
 
 }  // namespace samara

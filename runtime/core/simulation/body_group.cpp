@@ -9,12 +9,15 @@
 #include <fmt/format.h>
 
 #include "samara/core/base/parallel_for.hpp"
+#include "samara/core/collision/obstacle_contact.hpp"
 #include "samara/core/contact/ground_contact.hpp"
+#include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/dynamics/body_wind.hpp"
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/loads.hpp"
 #include "samara/core/integrator/step.hpp"
 #include "samara/core/simulation/world_pose.hpp"
+#include "samara/core/surface/surface_check.hpp"
 
 namespace samara {
 namespace {
@@ -245,6 +248,12 @@ FluidLoad BodyGroup::fluid_load(std::size_t index, double time) const {
                          batch_.own_state(index), noise_of(seed_, first_run_, index), steps_);
 }
 
+FluidForces BodyGroup::fluid_forces(std::size_t index, double time) const {
+    if (is_removed(index) || time < start(index)) return {};
+    return fluid_forces_of(*body_, size_of(index), surroundings_, release_.start, step_,
+                           batch_.own_state(index), noise_of(seed_, first_run_, index), steps_);
+}
+
 void BodyGroup::step_to(std::uint64_t steps) {
     while (steps_ < steps) {
         const std::uint64_t next_sample = (steps_ / steps_between_samples + 1) * steps_between_samples;
@@ -357,6 +366,21 @@ void BodyGroup::set_pose(std::size_t index, const Pose& pose, double time) {
     before_[index] = in_flow_now;
     before_time_[index] = begin;
     batch_.set_state(index, state);
+}
+
+void BodyGroup::require_outside(const ObstacleSet& obstacles, double time) const {
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        if (is_removed(i)) continue;
+        const Pose here = pose(i, time);
+        const TouchingBody touching = touching_body(*body_, size_of(i));
+        const auto overlap =
+            first_overlap(obstacles, touching.contact_points, {here.position, here.orientation}, time);
+        if (!overlap) continue;
+        throw Error(
+            fmt::format("copy {} of '{}' is inside obstacle '{}', at {}; add the obstacle elsewhere, or "
+                        "move the body first",
+                        i, name_, overlap->obstacle, samara::place(overlap->position)));
+    }
 }
 
 void BodyGroup::set_surroundings(const Surroundings& surroundings) {

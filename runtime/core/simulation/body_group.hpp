@@ -105,6 +105,10 @@ class BodyGroup {
     /// Returns the fluid's load on a body in its next step. Throws SimulationError where `time` is not the
     /// end of a step, or the body is of another size than the shape's.
     [[nodiscard]] FluidLoad fluid_load(std::size_t index, double time) const;
+    /// Throws Error where a body is inside one of these obstacles, or across a face, at a time (s).
+    void require_outside(const ObstacleSet& obstacles, double time) const;
+    /// Returns the forces on a body at the end of its last step; none at a time (s) before its start.
+    [[nodiscard]] FluidForces fluid_forces(std::size_t index, double time) const;
     void set_seed(std::uint64_t seed, std::uint32_t first_run);
     /// Replaces the surroundings from the last step on: bodies keep place and motion in the world, and wake.
     void set_surroundings(const Surroundings& surroundings);

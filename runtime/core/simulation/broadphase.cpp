@@ -32,14 +32,47 @@ Vector6d world_velocity(const BodyState& state, const Vector3d& ground_velocity)
 
 }  // namespace
 
+void KnownGaps::clear() {
+    ++step_;
+    used_ = 0;
+}
+
+std::pair<KnownGaps::Gap&, bool> KnownGaps::place_of(std::size_t a, std::size_t b) {
+    if (2 * used_ >= entries_.size()) grow();
+    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32U | b;
+    Entry& entry = entry_of(key);
+    const bool is_known = entry.step == step_;
+    if (!is_known) {
+        entry = {step_, key, {}};
+        ++used_;
+    }
+    return {entry.gap, is_known};
+}
+
+KnownGaps::Entry& KnownGaps::entry_of(std::uint64_t key) {
+    const std::size_t mask = entries_.size() - 1;
+    constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // Knuth, The Art of Computer Programming 3, 6.4
+    std::size_t place = (key * golden >> 32U) & mask;
+    while (entries_[place].step == step_ && entries_[place].key != key) place = (place + 1) & mask;
+    return entries_[place];
+}
+
+void KnownGaps::grow() {
+    std::vector<Entry> before(std::max<std::size_t>(64, 2 * entries_.size()));
+    before.swap(entries_);
+    for (const Entry& entry : before) {
+        if (entry.step == step_) entry_of(entry.key) = entry;
+    }
+}
+
 Broadphase::Broadphase(double step, int runs, int threads)
     : step_(step), threads_(threads), runs_(static_cast<std::size_t>(runs)) {}
 
 void Broadphase::take_step(const std::vector<std::unique_ptr<BodyGroup>>& all,
                            const Surroundings& surroundings, std::uint64_t number) {
-    std::vector<BodyGroup*> groups;
+    groups_.clear();
     for (const auto& group : all) {
-        if (group->grid_start() <= number) groups.push_back(group.get());
+        if (group->grid_start() <= number) groups_.push_back(group.get());
     }
     const Ground ground =
         ground_in_flow(surroundings, step_time(0.0, step_, number), step_time(0.0, step_, number + 1));
@@ -48,8 +81,8 @@ void Broadphase::take_step(const std::vector<std::unique_ptr<BodyGroup>>& all,
             for (std::size_t run = begin; run < end; ++run) work(run);
         });
     };
-    for_each_run([&](std::size_t run) { gather(runs_[run], run, groups, ground); });
-    std::vector<BatchReport> reports(groups.size());
+    for_each_run([&](std::size_t run) { gather(runs_[run], run, number, ground); });
+    reports_.resize(groups_.size());
     for (int guess = 0; guess < most_guesses; ++guess) {
         for_each_run([&](std::size_t run) {
             if (!runs_[run].is_guessed) find_islands(runs_[run]);
@@ -65,7 +98,7 @@ void Broadphase::take_step(const std::vector<std::unique_ptr<BodyGroup>>& all,
                 if (ContactRecord* record = batch.record(member.index)) *record = member.record;
             }
         }
-        for (std::size_t i = 0; i < groups.size(); ++i) reports[i] = groups[i]->take_steps(1);
+        for (std::size_t i = 0; i < groups_.size(); ++i) reports_[i] = groups_[i]->take_steps(1);
         bool again = false;
         for (Run& run : runs_) {
             run.is_guessed = !went_farther(run, ground);
@@ -74,18 +107,17 @@ void Broadphase::take_step(const std::vector<std::unique_ptr<BodyGroup>>& all,
         if (!again) break;
     }
     for_each_run([&](std::size_t run) { find_islands_and_step(runs_[run], surroundings, ground); });
-    for (std::size_t i = 0; i < groups.size(); ++i) groups[i]->keep_steps(reports[i], 1);
+    for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i]->keep_steps(reports_[i], 1);
 }
 
-void Broadphase::gather(Run& run, std::size_t number, const std::vector<BodyGroup*>& groups,
-                        const Ground& ground) const {
+void Broadphase::gather(Run& run, std::size_t number, std::uint64_t step, const Ground& ground) const {
     run.members.clear();
     run.is_guessed = false;
     run.gaps.clear();
-    for (BodyGroup* group : groups) {
+    for (BodyGroup* group : groups_) {
         Batch& batch = group->batch();
         const Surroundings& surroundings = group->surroundings();
-        const bool is_steady_there = is_steady(group->body(), surroundings);
+        const kernel::RestJudgement judgement = judgement_of_rest(group->body(), surroundings, step_);
         const double fall = 1.5 * step_ * step_ * surroundings.gravity.norm();
         for (std::size_t i = number * group->copies(); i < (number + 1) * group->copies(); ++i) {
             if (!group->is_there(i)) continue;
@@ -101,7 +133,8 @@ void Broadphase::gather(Run& run, std::size_t number, const std::vector<BodyGrou
             const double speed =
                 member.velocity.tail<3>().norm() + member.radius * member.velocity.head<3>().norm();
             member.reach = surplus * step_ * speed + fall + 2.0 * skin * member.radius;
-            member.is_awake = !member.own.at_rest || !is_steady_there || sees_turbulence(member.own);
+            member.is_awake = !member.own.at_rest ||
+                              !judgement.skips(step - group->grid_start(), !sees_turbulence(member.own));
             run.members.push_back(member);
         }
     }
@@ -130,14 +163,11 @@ void Broadphase::find_near(Run& run) {
 }
 
 double Broadphase::gap_between(Run& run, std::size_t a, std::size_t b) {
-    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32U | b;
     const Member& first = run.members[a];
     const Member& second = run.members[b];
     const double enough = first.reach + second.reach;
-    const auto known = run.gaps.find(key);
-    if (known != run.gaps.end() && (known->second.is_whole || known->second.gap > enough)) {
-        return known->second.gap;
-    }
+    const auto [known, is_known] = run.gaps.place_of(a, b);
+    if (is_known && (known.is_whole || known.gap > enough)) return known.gap;
     const auto hull = [&](const Member& member) {
         return CollisionHull{
             {&member.group->batch().touching(member.index).contact_points,
@@ -145,7 +175,7 @@ double Broadphase::gap_between(Run& run, std::size_t a, std::size_t b) {
             &member.group->faces()};
     };
     const double gap = pair_separation(hull(first), hull(second), enough).gap;
-    run.gaps[key] = {gap, gap <= enough};  // a gap of more than `enough` may be larger still
+    known = {gap, gap <= enough};  // a gap of more than `enough` may be larger still
     return gap;
 }
 
@@ -239,17 +269,17 @@ void Broadphase::collide_island(Run& run, const Surroundings& surroundings, cons
                                      .end_velocity = world_velocity(after, ground.velocity),
                                      .record = batch.record(member.index)});
     }
-    std::vector<IslandStep::Pair> pairs;
+    run.island_pairs.clear();
     const auto place_of_number = [&](std::size_t i) {
         return static_cast<std::size_t>(std::lower_bound(run.numbers.begin(), run.numbers.end(), i) -
                                         run.numbers.begin());
     };
     for (const auto& [a, b] : run.pairs) {
         if (run.members[a].island == run.members[run.numbers.front()].island) {
-            pairs.emplace_back(place_of_number(a), place_of_number(b));
+            run.island_pairs.emplace_back(place_of_number(a), place_of_number(b));
         }
     }
-    run.step.take(run.island_bodies, pairs,
+    run.step.take(run.island_bodies, run.island_pairs,
                   {.height = surroundings.ground,
                    .obstacles = surroundings.obstacles.get(),
                    .time = ground.time - step_,

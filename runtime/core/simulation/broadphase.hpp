@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "samara/core/contact/ground_contact.hpp"
@@ -12,6 +12,34 @@
 #include "samara/core/simulation/body_group.hpp"
 
 namespace samara {
+
+/// The gaps between pairs of hulls that are known in a step. It allocates only while it grows.
+class KnownGaps {
+  public:
+    /// A gap (m), or a lower bound of it.
+    struct Gap {
+        double gap = 0.0;
+        bool is_whole = false;  ///< whether it is the gap, not a bound
+    };
+
+    /// Forgets all.
+    void clear();
+    /// Returns the place for a pair's gap, and whether it was known.
+    std::pair<Gap&, bool> place_of(std::size_t a, std::size_t b);
+
+  private:
+    struct Entry {
+        std::uint64_t step = 0;  ///< in which it was filled; earlier ones are empty
+        std::uint64_t key = 0;
+        Gap gap;
+    };
+    void grow();
+    Entry& entry_of(std::uint64_t key);
+
+    std::vector<Entry> entries_;  ///< by hashes of the pairs, with linear probing; a power of two
+    std::size_t used_ = 0;
+    std::uint64_t step_ = 1;
+};
 
 /// Takes the steps of bodies that touch each other, all groups together; bodies of different runs never
 /// touch. A step depends on the bodies' states before it alone, not on threads or earlier steps.
@@ -43,26 +71,21 @@ class Broadphase {
         bool is_awake;                              ///< whether it moves, or may move
         std::size_t island = ContactBetween::none;  ///< the first member of its island
     };
-    /// A gap (m) between two hulls, or a lower bound of it.
-    struct KnownGap {
-        double gap;
-        bool is_whole;  ///< whether it is the gap, not a bound
-    };
     /// The bodies of one run, and the data of a step.
     struct Run {
         std::vector<Member> members;
         std::vector<std::pair<double, std::size_t>> order;  ///< by their lowest coordinate along x
         std::vector<IslandStep::Pair> near;                 ///< members whose spheres may touch
         std::vector<IslandStep::Pair> pairs;                ///< of islands
-        std::unordered_map<std::uint64_t, KnownGap> gaps;   ///< between hulls before the step
+        std::vector<IslandStep::Pair> island_pairs;         ///< of one island, by the numbers of its bodies
+        KnownGaps gaps;                                     ///< between hulls before the step
         std::vector<IslandBody> island_bodies;
         std::vector<std::size_t> numbers;
         IslandStep step;
         bool is_guessed = false;  ///< whether the predicted islands of this step have held so far
     };
 
-    void gather(Run& run, std::size_t number, const std::vector<BodyGroup*>& groups,
-                const Ground& ground) const;
+    void gather(Run& run, std::size_t number, std::uint64_t step, const Ground& ground) const;
     static void find_near(Run& run);
     static void find_islands(Run& run);
     static double gap_between(Run& run, std::size_t a, std::size_t b);
@@ -73,6 +96,8 @@ class Broadphase {
     double step_;
     int threads_;
     std::vector<Run> runs_;
+    std::vector<BodyGroup*> groups_;  ///< those that have started
+    std::vector<BatchReport> reports_;
 };
 
 }  // namespace samara

@@ -9,6 +9,7 @@
 
 #include "samara/core/base/numbers.hpp"
 #include "samara/core/base/parallel_for.hpp"
+#include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/core/simulation/broadphase.hpp"
@@ -132,23 +133,31 @@ std::size_t Simulation::add(const LoadedBody& body, const BodyPhysics& physics, 
 }
 
 std::size_t Simulation::add_obstacle(Obstacle obstacle) {
-    if (!members_->groups.empty()) {
-        reject(SimulationError::Reason::invalid_argument, "obstacles must be added before the bodies");
-    }
     auto& set = members_->obstacles;
-    if (set != nullptr) {
-        for (const ObstacleFaces& other : set->obstacles()) {
-            if (other.obstacle().name != obstacle.name) continue;
-            reject(SimulationError::Reason::invalid_argument,
-                   fmt::format("another obstacle already has the name '{}'; choose another name",
-                               obstacle.name));
-        }
-        set->add(std::move(obstacle));
-    } else {
+    for (std::size_t i = 0; i < obstacle_count(); ++i) {
+        const ObstacleFaces& other = set->obstacles()[i];
+        if (other.is_removed() || other.obstacle().name != obstacle.name) continue;
+        reject(SimulationError::Reason::invalid_argument,
+               fmt::format("another obstacle already has the name '{}'; choose another name", obstacle.name));
+    }
+    const ObstacleSet alone({obstacle});
+    for (const auto& group : members_->groups) group->require_outside(alone, members_->time);
+    if (set == nullptr) {
         set = std::make_shared<ObstacleSet>(std::vector{std::move(obstacle)});
+    } else {
+        set->add(std::move(obstacle));
     }
     renew_surroundings();
     return set->obstacles().size() - 1;
+}
+
+void Simulation::remove_obstacle(std::size_t index) {
+    members_->obstacles->remove(index);
+    renew_surroundings();
+}
+
+bool Simulation::is_obstacle_removed(std::size_t index) const {
+    return members_->obstacles->obstacles()[index].is_removed();
 }
 
 std::size_t Simulation::obstacle_count() const noexcept {
@@ -343,6 +352,11 @@ ContactRecord Simulation::take_contacts(std::size_t index) {
     return group.take_contacts(index - group.first());
 }
 
+FluidForces Simulation::fluid_forces(std::size_t index) const {
+    const BodyGroup& group = group_of(index);
+    return group.fluid_forces(index - group.first(), members_->time);
+}
+
 FluidLoad Simulation::fluid_load(std::size_t index) const {
     const BodyGroup& group = group_of(index);
     return group.fluid_load(index - group.first(), members_->time);
@@ -355,12 +369,14 @@ double Simulation::size_of(std::size_t index) const {
 
 double Simulation::mass(std::size_t index) const {
     const double size = size_of(index);
-    return size * size * size * group_of(index).body().mass;
+    const ImmersedBody& body = group_of(index).body();
+    return size * size * size * own_share(body, size) * body.mass;
 }
 
 Matrix3d Simulation::inertia(std::size_t index) const {
     const double size = size_of(index);
-    return (size * size * size) * (size * size) * group_of(index).body().own_inertia;
+    const ImmersedBody& body = group_of(index).body();
+    return (size * size * size) * (size * size) * own_share(body, size) * body.own_inertia;
 }
 
 Vector3d Simulation::center_of_mass(std::size_t index) const {
@@ -382,7 +398,9 @@ std::string Simulation::fingerprint() const {
                                    fmt::join(all.gravity.reshaped(), " "),
                                    all.ground ? fmt::format("{}", *all.ground) : "none", all.step, all.runs);
     for (std::size_t i = 0; i < obstacle_count(); ++i) {
-        text += description_of(members_->obstacles->obstacles()[i].obstacle());
+        const ObstacleFaces& faces = members_->obstacles->obstacles()[i];
+        text += description_of(faces.obstacle());
+        if (faces.is_removed()) text += "removed\n";
     }
     text += description_of(all.wind);
     if (all.bodies_collide) text += "bodies meet\n";

@@ -92,9 +92,15 @@ class Simulation {
     /// or destroyed.
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// Adds an obstacle, before the first group, and returns its number, from 0. Its surface must be welded
-    /// and sound. Throws SimulationError where there is a group already, or the name is taken.
+    /// Adds an obstacle, at any time, and returns its number, from 0; bodies at rest wake. Its surface must
+    /// be welded and sound. Throws SimulationError where the name is taken, Error where a body is inside of
+    /// it.
     std::size_t add_obstacle(Obstacle obstacle);
+    /// Removes an obstacle: bodies that it bore fall. The others keep their numbers. Needs index <
+    /// obstacle_count().
+    void remove_obstacle(std::size_t index);
+    /// Returns whether an obstacle is removed. Needs index < obstacle_count().
+    [[nodiscard]] bool is_obstacle_removed(std::size_t index) const;
 
     /// Adds all bodies of a group, which start at time() or later, and returns the number of the first: copy
     /// c of run r has the number first + r * count + c. `name`, on which the random numbers depend, is the
@@ -150,6 +156,9 @@ class Simulation {
     /// places the body by set_pose(), asks, and advances by a step. Throws SimulationError where time() lies
     /// within a step of the body.
     [[nodiscard]] FluidLoad fluid_load(std::size_t index) const;
+    /// Returns the fluid's forces on a body, by their causes, at the end of the step that holds time(); none
+    /// before its start and once it is removed. Needs index < size().
+    [[nodiscard]] FluidForces fluid_forces(std::size_t index) const;
     /// Returns a body's size relative to the shape's. Needs index < size().
     [[nodiscard]] double size_of(std::size_t index) const;
     /// Returns the mass (kg) of the body alone, at its size.
@@ -159,7 +168,7 @@ class Simulation {
     /// Returns a body's centre of mass (m from the shape's origin, shape axes), at the body's size.
     [[nodiscard]] Vector3d center_of_mass(std::size_t index) const;
 
-    /// Returns the number of obstacles.
+    /// Returns the number of obstacles, with those that were removed.
     [[nodiscard]] std::size_t obstacle_count() const noexcept;
     /// Replaces the keys of an obstacle: one at least, in ascending order of time. Later than the first
     /// advance the obstacle moves evenly from its place at time() to the first key that lies half a step

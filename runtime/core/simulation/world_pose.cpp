@@ -152,8 +152,8 @@ void require_outside_obstacles(const TouchingBody& body, const std::string& name
 
 Surroundings surroundings_of(const SimulationSettings& settings) {
     const Wind wind = settings.wind.seeded(settings.seed);
-    // A mean wind that is the same everywhere is a current, to the last bit.
-    const Vector3d uniform = wind.profile ? Vector3d::Zero() : wind.velocity;
+    // A wind that is the same everywhere is a current, to the last bit.
+    const Vector3d uniform = wind.is_field() ? Vector3d::Zero() : wind.velocity;
     return {
         .gravity = settings.gravity,
         .current = settings.fluid.current + uniform,

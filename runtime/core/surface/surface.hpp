@@ -42,6 +42,11 @@ double longest_edge(const Surface& surface, std::size_t triangle);
 /// Returns the sum of the flat triangles' areas (m^2).
 double surface_area(const Surface& surface);
 
+/// Returns the point of the triangle abc (m) that is nearest to p. Ericson, Real-Time Collision Detection
+/// (2005), 5.1.5.
+Vector3d closest_point_of_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                                   const Vector3d& c) noexcept;
+
 /// Returns the projected area (m^2) of a convex body along the unit vector `direction`; for other bodies an
 /// upper bound, the sum over the faces towards it.
 double projected_area(const Surface& surface, const Vector3d& direction);

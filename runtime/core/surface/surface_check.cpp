@@ -90,7 +90,7 @@ void require_two_faces_at_each_edge(const Surface& surface,
     if (open > 0) {
         throw Error(fmt::format(
             "is not closed: {}, the first from {} to {}; fill the hole (in Blender: Mesh > Clean Up > Fill "
-            "Holes), or give a sheet a thickness (in Blender: the Solidify modifier)",
+            "Holes), or give a sheet a thickness ('samara mesh --thickness', or thickness in a scene)",
             count_of(open, "edge has a face on one side only", "edges have a face on one side only"),
             place(vertex(surface, first_open->low)), place(vertex(surface, first_open->high))));
     }

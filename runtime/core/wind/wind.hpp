@@ -25,6 +25,18 @@ struct WindProfile {
     bool operator==(const WindProfile&) const = default;
 };
 
+/// The fall of the whole wind towards ground and obstacles, where the air stands: from all of it at `height`
+/// to none on the surface, as ln(1 + d/z0) over the distance d.
+struct WindSurfaceLayer {
+    double height = 0.1;      ///< m from the surface; 0: the full wind reaches it
+    double roughness = 1e-3;  ///< m: z0; boards, tiles
+
+    /// Returns the share of the wind at a distance (m) from the surface, 0 to 1.
+    [[nodiscard]] double share_at(double distance) const noexcept;
+    /// Compares member by member.
+    bool operator==(const WindSurfaceLayer&) const = default;
+};
+
 /// Gusts as frozen turbulence that drifts with current and mean wind: homogeneous, isotropic, free of
 /// divergence.
 struct WindGusts {
@@ -79,7 +91,7 @@ using WindFunction = void (*)(void* context, double time, std::size_t count, con
 
 /// The wind beside the uniform current and gust: the sum of its parts.
 struct Wind {
-    Vector3d velocity = Vector3d::Zero();     ///< m/s: without a profile equivalent to a current
+    Vector3d velocity = Vector3d::Zero();     ///< m/s: alone equivalent to a current
     std::optional<WindProfile> profile = {};  ///< of `velocity`, which must then be level
     std::optional<WindGusts> gusts = {};      ///< none where absent
     std::vector<WindVortex> vortices = {};    ///< any number
@@ -87,10 +99,13 @@ struct Wind {
     std::optional<WindFile> file = {};        ///< none where absent
     WindFunction function = nullptr;          ///< none where null
     void* function_context = nullptr;         ///< passed to `function`
+    /// Near surfaces; absent: the default, but for a uniform and steady wind, which is a current.
+    std::optional<WindSurfaceLayer> surface_layer = {};
 
     /// Returns whether it is more than a uniform and steady velocity.
     [[nodiscard]] bool is_field() const {
-        return profile || gusts || !vortices.empty() || !fans.empty() || file || function != nullptr;
+        return surface_layer || profile || gusts || !vortices.empty() || !fans.empty() || file ||
+               function != nullptr;
     }
     /// Returns this wind with the seed for gusts that have none.
     [[nodiscard]] Wind seeded(std::uint64_t seed) const {

@@ -137,9 +137,21 @@ AxisWeights axis_weights(double at, std::size_t nodes, Beyond beyond) noexcept {
 
 }  // namespace
 
+double WindSurfaceLayer::share_at(double distance) const noexcept {
+    if (distance >= height) return 1.0;
+    return std::log1p(std::max(0.0, distance) / roughness) / std::log1p(height / roughness);
+}
+
 WindField::WindField(const Wind& wind, const Vector3d& current)
-    : file_(wind.file), function_(wind.function), context_(wind.function_context) {
-    if (wind.profile) set_profile(wind, constants_);
+    : surface_layer_(wind.surface_layer.value_or(WindSurfaceLayer{})),
+      file_(wind.file),
+      function_(wind.function),
+      context_(wind.function_context) {
+    if (wind.profile) {
+        set_profile(wind, constants_);
+    } else {
+        uniform_ = wind.velocity;
+    }
     if (wind.gusts) {
         constants_.drift = triple(current + wind.velocity);
         constants_.waves = gust_waves(*wind.gusts);
@@ -150,6 +162,11 @@ WindField::WindField(const Wind& wind, const Vector3d& current)
 
 bool WindField::blow(double time, const WindSpan& span, std::size_t count, WindBlock& block) const noexcept {
     kernel::blow(constants_, time, count, block);
+    for (std::size_t axis = 0; axis < 3 && !uniform_.isZero(0.0); ++axis) {
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            block.velocity[axis][lane] += uniform_[static_cast<Eigen::Index>(axis)];
+        }
+    }
     if (file_) add_file(time, count, block);
     return function_ == nullptr || add_function(time, span, count, block);
 }
@@ -241,6 +258,10 @@ std::string description_of(const Wind& wind) {
                             static_cast<int>(f.outside));
     }
     if (wind.function != nullptr) text += " function";
+    if (wind.is_field()) {
+        const WindSurfaceLayer layer = wind.surface_layer.value_or(WindSurfaceLayer{});
+        text += fmt::format(" surface layer {} {}", layer.height, layer.roughness);
+    }
     return text + '\n';
 }
 

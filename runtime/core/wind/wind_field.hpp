@@ -19,7 +19,8 @@ struct WindSpan {
     double duration = 0.0;  ///< s: the time between the two
 };
 
-/// A wind that is not uniform and steady, prepared for the steps (docs/explanation/noise-and-wake.md#wind).
+/// A wind that is not uniform and steady, prepared for the steps (docs/explanation/noise-and-wake.md#wind),
+/// as it is far from surfaces.
 class WindField {
   public:
     /// Prepares the wind. `current` (m/s): the gusts drift with it and with the wind's own velocity.
@@ -29,6 +30,8 @@ class WindField {
     /// beyond 1e30, is replaced by zero, and false returned.
     bool blow(double time, const WindSpan& span, std::size_t count, WindBlock& block) const noexcept;
 
+    /// Returns the fall of the wind towards surfaces, which `blow` leaves out.
+    [[nodiscard]] const WindSurfaceLayer& surface_layer() const noexcept { return surface_layer_; }
     /// Returns the constants of the formulas.
     [[nodiscard]] const WindConstants& constants() const noexcept { return constants_; }
 
@@ -37,6 +40,8 @@ class WindField {
     bool add_function(double time, const WindSpan& span, std::size_t count, WindBlock& block) const noexcept;
 
     WindConstants constants_;
+    Vector3d uniform_ = Vector3d::Zero();  ///< m/s: the velocity without a profile
+    WindSurfaceLayer surface_layer_;
     std::optional<WindFile> file_;
     WindFunction function_;
     void* context_;

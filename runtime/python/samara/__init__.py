@@ -26,12 +26,12 @@ __all__ = ["Body", "BodyMotion", "Error", "FileError", "Simulation", "InputError
 
 def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, runs: int = 1, seed: Optional[int] = None,
              step: Optional[float] = None, threads: int = 0, bodies: Union[str, "_os.PathLike[str]"] = "",
-             progress: Optional[Callable[[float, float], object]] = None) -> Motion:
+             forces: bool = False, progress: Optional[Callable[[float, float], object]] = None) -> Motion:
     """Simulates a scene (a Scene, a dict, or the name of a scene file) and returns its Motion.
 
     runs: repetitions that differ by their noise alone. seed, step (s): instead of the scene's. threads: 0 for all cores; the motion is
-    the same for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. progress: called with
-    (done, total), ten times a second at most; an exception in it ends the simulation. Other threads of Python run meanwhile.
+    the same for any number. bodies: a folder of baked bodies, NAME.body.h5 for each body of the scene. forces: keep the
+    fluid's forces of each frame (BodyMotion.forces). progress: called with (done, total), ten times a second at most; an exception in it ends the simulation. Other threads of Python run meanwhile.
 
     Raises InputError where the scene or a body is wrong, FileError where a file cannot be read, Error where a body's motion leaves
     the range of numbers.
@@ -40,7 +40,8 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
         scene = Scene(scene)
     elif not isinstance(scene, Scene):
         scene = Scene.read(scene)
-    return _fly(scene, runs=runs, seed=seed, step=step, threads=threads, bodies=bodies, progress=progress)
+    return _fly(scene, runs=runs, seed=seed, step=step, threads=threads, bodies=bodies, forces=forces,
+                progress=progress)
 
 
 def __getattr__(name: str) -> Any:

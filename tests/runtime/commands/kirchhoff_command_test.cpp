@@ -203,11 +203,11 @@ TEST(InfoCommand, ForeignHdf5GivesOneLine) {
 TEST(LoadBody, RefusesScaleAndTrianglesForABodyFile) {
     const test::TemporaryFolder folder;
     const std::string file = write_ellipsoid(folder);
-    EXPECT_EQ(load_body(file, 1.0).name, "egg");
-    EXPECT_THAT(test::error_of([&] { load_body(file, 0.001); }), HasSubstr("already in metres"));
-    EXPECT_THAT(test::error_of([&] { load_body(file, 1.0, 500); }), HasSubstr("already holds a mesh"));
-    EXPECT_THAT(test::error_of([&] { load_body(folder.path(), 1.0); }),
-                HasSubstr("is a folder; give a file"));
+    EXPECT_EQ(load_body(file).name, "egg");
+    EXPECT_THAT(test::error_of([&] { load_body(file, {.scale = 0.001}); }), HasSubstr("already in metres"));
+    EXPECT_THAT(test::error_of([&] { load_body(file, {.triangles = 500}); }),
+                HasSubstr("already holds a mesh"));
+    EXPECT_THAT(test::error_of([&] { load_body(folder.path()); }), HasSubstr("is a folder; give a file"));
 }
 
 }  // namespace

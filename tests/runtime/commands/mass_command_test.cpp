@@ -69,9 +69,10 @@ TEST_F(MassCommand, PartsGiveMassCentreAndInertia) {
 TEST_F(MassCommand, RefusesWhatIsNoMassInOneLineAndLeavesTheFile) {
     const std::string before = file_content_hash(folder_ / "egg.body.h5");
     const std::vector<std::pair<std::vector<std::string>, const char*>> cases = {
-        {{}, "--density or --mass"},
+        {{}, "--density, --mass or --area-density"},
         {{"--density", "1", "--mass", "1"}, "give one of them"},
-        {{"--density", "1200", "--center-of-mass", "0,0,0"}, "contradicts a uniform --density"},
+        {{"--area-density", "80", "--mass", "1"}, "give one of them"},
+        {{"--density", "1200", "--center-of-mass", "0,0,0"}, "contradicts a uniform density"},
         {{"--mass", "0.05", "--center-of-mass", "0,0"}, "not a vector"},
         {{"--mass", "0.05", "--center-of-mass", "0,0,0.5"}, "within the box of the shape"},
         {{"--mass", "0.05", "--inertia", "1,1,3"}, "at most the sum of the others"},
@@ -95,7 +96,7 @@ TEST_F(MassCommand, ABodyFileWithoutAMassNeedsOneInTheScene) {
     EXPECT_EQ(done.status, 1);
     EXPECT_TRUE(test::is_one_line(done.error)) << done.error;
     EXPECT_THAT(done.error, HasSubstr("'egg'"));
-    EXPECT_THAT(done.error, HasSubstr("give density or mass"));
+    EXPECT_THAT(done.error, HasSubstr("give density, mass or area_density"));
 }
 
 }  // namespace

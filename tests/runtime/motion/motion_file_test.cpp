@@ -55,6 +55,35 @@ std::string reading_error(const std::filesystem::path& file) {
     return error_of([&] { (void)read_motion_file(file); });
 }
 
+TEST(MotionFile, KeepsTheFluidsForcesWhereTheyWereAskedFor) {
+    const TemporaryFolder folder;
+    Motion motion = two_bodies();
+    EXPECT_FALSE(motion.has_forces);
+    motion.has_forces = true;
+    double value = 0.0;
+    for (BodyMotion& body : motion.bodies) {
+        body.forces.resize(body.poses.size());
+        for (FluidForces& forces : body.forces) {
+            for (const auto& [name, part] : parts_of_fluid_forces) {
+                forces.*part = {Vector3d(value, value + 0.1, value + 0.2), Vector3d(0.3, value, -value)};
+                value += 1.0;
+            }
+        }
+    }
+    write_motion_file(folder / "motion.h5", motion);
+    const Motion read = read_motion_file(folder / "motion.h5");
+    ASSERT_TRUE(read.has_forces);
+    for (std::size_t i = 0; i < 2; ++i) {
+        ASSERT_EQ(read.bodies[i].forces.size(), motion.bodies[i].forces.size());
+        for (std::size_t k = 0; k < read.bodies[i].forces.size(); ++k) {
+            for (const auto& [name, part] : parts_of_fluid_forces) {
+                EXPECT_EQ(read.bodies[i].forces[k].*part, motion.bodies[i].forces[k].*part);
+            }
+        }
+    }
+    EXPECT_TRUE(Hdf5Reader(folder / "motion.h5").has("/bodies/z first/forces/drag"));
+}
+
 TEST(MotionFile, RefusesUncertaintiesThatAreNone) {
     const TemporaryFolder folder;
     const auto error_with = [&](const std::vector<MetricUncertainty>& uncertainties) {

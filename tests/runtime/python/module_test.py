@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The Python module, with real bodies, files and threads. PYTHONPATH names its folder, PATH that of the programs."""
 
+import copy
 import gc
 import json
 import math
 import os
 import pathlib
+import pickle
 import shutil
 import signal
 import subprocess
@@ -21,6 +23,35 @@ import samara
 from leaves import ended_in_the_middle, endless, leaves, long_flight
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+
+class Copies(unittest.TestCase):
+    def test_motions_iterate_over_their_bodies_and_know_their_names(self):
+        motion = samara.simulate(leaves(count=2))
+        self.assertEqual([body.name for body in motion], ["leaf"])
+        self.assertIn("leaf", motion)
+        self.assertNotIn("twig", motion)
+
+    def test_pickled_motions_and_bodies_are_the_same(self):
+        motion = samara.simulate(leaves(count=2), forces=True)
+        for copied in (pickle.loads(pickle.dumps(motion)), copy.deepcopy(motion), copy.copy(motion)):
+            numpy.testing.assert_array_equal(copied["leaf"].position, motion["leaf"].position)
+            numpy.testing.assert_array_equal(copied["leaf"].forces["drag"], motion["leaf"].forces["drag"])
+        leaf = pickle.loads(pickle.dumps(motion["leaf"]))
+        numpy.testing.assert_array_equal(leaf.orientation, motion["leaf"].orientation)
+        body = samara.Body.read(ROOT / "runtime/bodies/leaf.body.h5")
+        for copied in (pickle.loads(pickle.dumps(body)), copy.deepcopy(body)):
+            numpy.testing.assert_array_equal(copied.force_table, body.force_table)
+            self.assertEqual(copied.mass, body.mass)
+
+    def test_forces_have_a_row_for_each_frame_and_balance_a_steady_fall(self):
+        self.assertIsNone(samara.simulate(leaves())["leaf"].forces)
+        motion = samara.simulate(leaves(count=2), runs=2, forces=True)
+        forces = motion["leaf"].forces
+        self.assertEqual(list(forces), ["buoyancy", "inertia", "drag", "lift", "noise"])
+        for part in forces.values():
+            self.assertEqual(part.shape, motion["leaf"].position.shape[:3] + (6,))
+        self.assertTrue((forces["drag"][:, 5:, :, 5] > 0.0).all())  # upwards, while it falls
 
 
 class Scenes(unittest.TestCase):

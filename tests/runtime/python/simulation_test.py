@@ -163,6 +163,19 @@ class LiveFlights(unittest.TestCase):
         with self.assertRaisesRegex(samara.Error, "finite"):
             self.simulation.set_ground(math.inf)
 
+    def test_an_obstacle_added_in_flight_bears_bodies_until_it_is_removed(self):
+        self.simulation.advance(0.1)
+        below = self.simulation.poses("leaf").position[..., 2].min() - 0.3
+        slab = {"name": "roof", "shape": str(ROOT / "docs/scenes/roof.obj"), "position": [0, 0, below]}
+        self.simulation.add_obstacle(slab)
+        with self.assertRaisesRegex(samara.Error, "already has the name 'roof'"):
+            self.simulation.add_obstacle(slab)
+        self.simulation.remove_obstacle("roof")
+        with self.assertRaisesRegex(samara.InputError, "no obstacle 'roof'"):
+            self.simulation.remove_obstacle("roof")
+        with self.assertRaisesRegex(samara.Error, "frictoin"):
+            self.simulation.add_obstacle(slab | {"frictoin": 1})
+
     def test_bodies_meet_where_the_scene_says_so(self):
         scene = leaves()
         scene["scene"]["bodies_collide"] = True

@@ -224,6 +224,40 @@ TEST_F(SceneFile, TheStepIsANumberOrLeftToTheAdviceWithATolerance) {
                 HasSubstr("scene.toml:4: step_tolerance in [scene] must lie between"));
 }
 
+TEST_F(SceneFile, ARotationIsInDegreesAboutXThenYThenZ) {
+    const Quaterniond turned = read(with_body("density = 1\nrotation = [90, 0, 90]")).bodies[0].orientation;
+    // About x first: y becomes z; then about z: x becomes y.
+    EXPECT_LT((turned * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 1e-12);
+    EXPECT_LT((turned * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-12);
+    EXPECT_THAT(rejection(with_body("density = 1\nrotation = [0, 0, 1]\norientation = [1, 0, 0, 0]")),
+                HasSubstr("rotation in [[body]] excludes orientation"));
+}
+
+TEST_F(SceneFile, AMassByAreaIsInGramsAndExcludesTheOthers) {
+    EXPECT_DOUBLE_EQ(*read(with_body("area_density = 80")).bodies[0].mass.area_density, 0.08);
+    EXPECT_THAT(rejection(with_body("area_density = 80\nmass = 1")), HasSubstr("give one of the three"));
+    EXPECT_THAT(rejection(with_body("area_density = 80\ninertia = [1, 1, 1]")),
+                HasSubstr("give mass instead"));
+}
+
+TEST_F(SceneFile, AScaleOfABodyFileIsASizeAndWhatTheSceneSaysIsOfThatSize) {
+    const auto body = [&](const std::string& keys) {
+        return read("[scene]\nduration = 1\n[[body]]\nname = \"a\"\nshape = \"samara:leaf\"\n" + keys)
+            .bodies[0];
+    };
+    const SceneBody twice = body(
+        "scale = 2\nmass = 0.008\ncenter_of_mass = [0, 0.02, 0]\ncount = 2\n"
+        "spread = { size = [0.5, 1] }");
+    EXPECT_EQ(twice.scale, 1.0);
+    EXPECT_EQ(twice.smallest_size, 1.0);
+    EXPECT_EQ(twice.largest_size, 2.0);
+    EXPECT_DOUBLE_EQ(*twice.mass.mass, 0.001);
+    EXPECT_DOUBLE_EQ(twice.mass.center_of_mass->y(), 0.01);
+    EXPECT_TRUE(body("scale = 2").spreads_size());
+    EXPECT_THAT(test::error_of([&] { body("scale = 2000"); }), HasSubstr("scale"));
+    EXPECT_THAT(test::error_of([&] { body("thickness = 0.001"); }), HasSubstr("open sheet"));
+}
+
 TEST_F(SceneFile, AValueOutOfRangeIsRefusedWithItsLine) {
     EXPECT_THAT(rejection(with_body("density = -1")), HasSubstr("scene.toml:6: density"));
     EXPECT_THAT(rejection(with_body("density = nan")), HasSubstr("scene.toml:6: density"));
@@ -259,7 +293,7 @@ TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {
 TEST_F(SceneFile, ContradictionsAreRefused) {
     EXPECT_THAT(rejection(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
     EXPECT_THAT(rejection(with_body("density = 1\ninertia = [1, 1, 1]")),
-                HasSubstr("mass instead of density"));
+                HasSubstr("give mass instead"));
     EXPECT_THAT(rejection(with_body("center_of_mass = [0, 0, 0]")), HasSubstr("give mass too"));
     EXPECT_THAT(rejection(with_body("density = 1\ndrag_coefficient = 1")),
                 HasSubstr("loads = \"coefficients\""));

@@ -56,6 +56,31 @@ TEST(Simulation, FramesLieAtTheFrameRateFromZeroToTheDuration) {
     EXPECT_NEAR(motion.times.back(), 4.0, 1e-12);
 }
 
+TEST(Simulation, ForcesOfTheFramesAreThoseOfTheSimulationAtTheEndsOfTheirStepsAndChangeNoPose) {
+    Scene scene = noisy_scene();
+    scene.bodies[0].count = 3;
+    scene.bodies[0].spread_angle = 1.0;
+    const Motion with = simulate(scene, loaded_bodies(), 2, go_on, 1, true).motion;
+    const Motion without = flown(scene, 2);
+    EXPECT_TRUE(without.bodies[0].forces.empty());
+    ASSERT_EQ(with.bodies[0].forces.size(), with.bodies[0].poses.size());
+    Simulation simulation = simulation_of(scene, loaded_bodies(), 2, 1);
+    for (const int frame : {1, 30, 60}) {
+        simulation.advance_to(with.times[static_cast<std::size_t>(frame)]);
+        for (int run = 0; run < 2; ++run) {
+            for (int copy = 0; copy < 3; ++copy) {
+                expect_same(with.pose(with.bodies[0], run, frame, copy),
+                            without.pose(without.bodies[0], run, frame, copy));
+                const FluidForces& kept = with.bodies[0].forces[with.index(with.bodies[0], run, frame, copy)];
+                const FluidForces now = simulation.fluid_forces(static_cast<std::size_t>(3 * run + copy));
+                EXPECT_EQ(kept.drag, now.drag);
+                EXPECT_EQ(kept.noise, now.noise);
+                EXPECT_FALSE(kept.drag.is_zero());
+            }
+        }
+    }
+}
+
 TEST(Simulation, TheSameSeedGivesTheSameMotionAndAnotherSeedAnother) {
     Scene scene = noisy_scene();
     const Motion first = flown(scene);

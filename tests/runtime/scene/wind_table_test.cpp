@@ -36,6 +36,16 @@ TEST(WindTable, OfASceneWithoutIsCalm) {
     EXPECT_FALSE(scene_with("velocity = [1, 0, 0]").wind.is_field());
 }
 
+TEST(WindTable, FallsOffTowardsSurfacesUnlessItIsAUniformVelocityAlone) {
+    EXPECT_FALSE(scene_with("velocity = [1, 0, 0]").wind.is_field());
+    EXPECT_FALSE(scene_with("gusts = { rms = 1, length = 1 }").wind.surface_layer.has_value());
+    const Wind wind =
+        scene_with("velocity = [1, 0, 0]\nsurface_layer = { height = 0.2, roughness = 0.01 }").wind;
+    EXPECT_EQ(wind.surface_layer, (WindSurfaceLayer{.height = 0.2, .roughness = 0.01}));
+    EXPECT_TRUE(wind.is_field());
+    EXPECT_EQ(scene_with("surface_layer = { height = 0 }").wind.surface_layer->height, 0.0);
+}
+
 TEST(WindTable, HoldsWhatItSays) {
     const Wind wind = scene_with(R"(velocity = [3, 1, 0]
 profile = { law = "power", exponent = 0.2, height = 4 }

@@ -22,7 +22,8 @@ from . import style as _style
 from .style import write as write
 
 _DRAWERS: dict[str, Callable[[dict[str, Any]], Any]] = {
-    "strip": _motions.strip, "phase": _motions.phase, "landing": _motions.landing, "polars": _bodies.polars,
+    "strip": _motions.strip, "phase": _motions.phase, "landing": _motions.landing,
+    "forces": _motions.forces, "polars": _bodies.polars,
     "sphere": _bodies.sphere, "convergence": _bodies.convergence, "comparison": _comparisons.comparison,
     "plan": _bakes.plan,
     "meshes": _bakes.meshes, "histories": _bakes.histories,
@@ -30,7 +31,7 @@ _DRAWERS: dict[str, Callable[[dict[str, Any]], Any]] = {
 
 
 def draw(data: Mapping[str, Any]) -> Any:
-    """Draws the picture that a program handed over: a dict whose "picture" is one of strip, phase, landing, polars, sphere,
+    """Draws the picture that a program handed over: a dict whose "picture" is one of strip, phase, landing, forces, polars, sphere,
     convergence, comparison, plan, meshes, histories. Returns a matplotlib Figure of 2000 x 1300 pixels."""
     with _style.page():
         figure = _DRAWERS[data["picture"]](dict(data))
@@ -60,6 +61,12 @@ def phase(motion: Any, body: Optional[str] = None, *, run: int = 0, copy: int = 
     """Draws the phase portrait of a body of a samara.Motion: its tilt in the plane in which it swings most (degrees)
     against the tilt's rate (rad/s), and both over time. Returns a matplotlib Figure."""
     return _of_motion("phase", motion, body, run, copy)
+
+
+def forces(motion: Any, body: Optional[str] = None, *, run: int = 0, copy: int = 0) -> Any:
+    """Draws the fluid's forces on a body of a samara.Motion that was simulated with forces=True: as arrows at its
+    silhouettes, and over time. Returns a matplotlib Figure."""
+    return _of_motion("forces", motion, body, run, copy)
 
 
 def landing(motion: Any, body: Optional[str] = None) -> Any:

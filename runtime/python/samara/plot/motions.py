@@ -11,13 +11,14 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from .silhouettes import FRONT, SIDE, Silhouettes, chosen_frames, rotations
-from .style import (BLACK, BLUE, BOTTOM, GRAY, GREEN, LEFT, ORANGE, RIGHT, TOP, Lengths, airy, colored_line,
+from .style import (BLACK, BLUE, BOTTOM, GRAY, GREEN, LEFT, ORANGE, PINK, RIGHT, TOP, Lengths, airy, colored_line,
                     count_angles, heading,
                     label, new_figure, number, panel, set_limits, shade, shares, time_color)
 
 _PORTRAIT = (LEFT + 10, BOTTOM, 985.0, TOP - BOTTOM)
 _SERIES_LEFT = 1270.0
 _GAP = 60.0  # between the two views
+_LONGEST_ARROW = 110.0  # pixels
 _WIDEST, _NARROWEST = 900.0, 250.0  # pixels: both views with their gap, one view
 _SMOOTH_SWING = 12.0  # frames: of fewer the curve shows corners
 
@@ -55,6 +56,24 @@ def strip(data: dict[str, Any]) -> Any:
     descent_speed, inclination, angular_velocity [x, y, z]; vertices (shape axes, about the centre of mass) and
     triangles (numbers of three vertices, anticlockwise from outside).
     """
+    return _along_path(data, (), _series)
+
+
+_FORCES = {"drag": ORANGE, "lift": BLUE, "inertia": GREEN, "noise": PINK, "buoyancy": GRAY}
+_ARROWS = ("drag", "lift", "inertia")
+
+
+def forces(data: dict[str, Any]) -> Any:
+    """Draws the fluid's forces as arrows at the body's silhouettes, and over time.
+
+    `data`: that of strip(), and in force and moment (about the centre of mass) for each of buoyancy, inertia, drag, lift
+    and noise the vector [x, y, z] of each frame (N, N m).
+    """
+    return _along_path(data, _ARROWS, _force_series)
+
+
+def _along_path(data: dict[str, Any], arrows: tuple[str, ...], series: Any) -> Any:
+    """Draws silhouettes along the path, with arrows of these forces, beside the time series that `series` draws."""
     times = np.asarray(data["times"], dtype=float)
     position = np.asarray(data["position"], dtype=float)
     rotation = rotations(data["orientation"])
@@ -67,15 +86,34 @@ def strip(data: dict[str, Any]) -> Any:
     _title(figure, data)
     length = times[last] - times[first]
     share = (times - times[first]) / length if length > 0.0 else np.zeros(len(times))
+    vectors = {name: np.asarray(data["force"][name], dtype=float) for name in arrows}
     right = _views(figure, position, rotation, Silhouettes(vertices, triangles, len(frames)), times, share, first, last,
-                   frames)
-    _series(figure, data, times, share, frames, right + 110.0)
+                   frames, vectors)
+    series(figure, data, times, share, frames, right + 110.0)
     return figure
 
 
+def _force_series(figure: Any, data: dict[str, Any], times: Any, _share: Any, _frames: list[int], left: float) -> None:
+    gap = 95.0
+    tall = (TOP - BOTTOM - 2 * gap) / 3.0
+    force = {name: np.asarray(data["force"][name], dtype=float) for name in _FORCES}
+    moment = {name: np.asarray(data["moment"][name], dtype=float) for name in _FORCES}
+    rows = (("Forces (N)", {name: np.linalg.norm(force[name], axis=1) for name in _FORCES}),
+            ("Upward parts (N)", {name: force[name][:, 2] for name in _FORCES}),
+            ("Moments (N m)", {name: np.linalg.norm(moment[name], axis=1) for name in _FORCES if name != "drag"}))
+    for row, (title, values) in enumerate(rows):
+        axes = panel(figure, (left, BOTTOM + (2 - row) * (tall + gap), RIGHT - left, tall), title,
+                     "time (s)" if row == 2 else "", [(name, _FORCES[name]) for name in _FORCES] if row == 0 else "")
+        axes.set_xlim(_time_range(times))
+        shade(axes, data["measures"]["window"])
+        for name, one in values.items():
+            axes.plot(times, one, color=_FORCES[name], lw=1.0, **_of_frames(times))
+        axes.set_ylim(_with_zero(np.concatenate(list(values.values()))))
+
+
 def _views(figure: Any, position: Any, rotation: Any, body: Silhouettes, times: Any, share: Any, first: int, last: int,
-           frames: list[int]) -> float:
-    """Draws both views to one scale; returns where their last text ends (pixels)."""
+           frames: list[int], forces: dict[str, Any]) -> float:
+    """Draws both views to one scale, with forces as arrows; returns where their last text ends (pixels)."""
     path = position[first:last + 1]
     shown = np.concatenate([path, *(position[i] + body.vertices @ rotation[i].T for i in frames)])
     low, high = shown.min(axis=0), shown.max(axis=0)
@@ -107,6 +145,15 @@ def _views(figure: Any, position: Any, rotation: Any, body: Silhouettes, times: 
         places = np.stack([across.of(places[..., 0]), heights.of(places[..., 1])], axis=-1)
         axes.add_collection(PolyCollection(places, facecolors=np.concatenate(colors), edgecolors="none", lw=0, zorder=3,
                                            gid=f"silhouettes_{name}"), autolim=False)
+        greatest = max((float(np.linalg.norm(vectors[frames], axis=1).max()) for vectors in forces.values()), default=0.0)
+        for name, vectors in forces.items():
+            scale = _LONGEST_ARROW * pixel / greatest if greatest > 0.0 else 0.0
+            for i in frames:
+                tip = position[i] + scale * vectors[i]
+                axes.annotate("", (float(across.of(tip[axis])), float(heights.of(tip[2]))),
+                              (float(across.of(position[i][axis])), float(heights.of(position[i][2]))),
+                              arrowprops={"arrowstyle": "-|>", "color": _FORCES[name], "lw": 1.0, "shrinkA": 0.0,
+                                          "shrinkB": 0.0, "mutation_scale": 6.0}, zorder=5)
         left += wide[axis] + _GAP
     edge = left - _GAP
     taken: list[float] = []

@@ -249,7 +249,7 @@ TEST(CObstacle, OutOfRangeIsRefusedByName) {
     EXPECT_EQ(samara_simulation_obstacle_count(simulation.get()), 0U);
 }
 
-TEST(CObstacle, MustComeBeforeTheBodiesWhichMustStartOutsideOfIt) {
+TEST(CObstacle, HasANameOfItsOwnAndBodiesStartAndAreOutsideOfIt) {
     const BodyOnDisk body;
     CallersObstacle top(table_top());
     top.obstacle.name = "table";
@@ -268,7 +268,58 @@ TEST(CObstacle, MustComeBeforeTheBodiesWhichMustStartOutsideOfIt) {
     top.obstacle.name = "shelf";
     EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, nullptr),
               SAMARA_INVALID_ARGUMENT);
-    EXPECT_THAT(error.text(), HasSubstr("before the bodies"));
+    EXPECT_THAT(error.text(), HasSubstr("is inside obstacle 'shelf'"));
+    EXPECT_EQ(samara_simulation_obstacle_count(simulation.get()), 1U);
+}
+
+TEST(CObstacle, ThatIsAddedInFlightBearsBodiesAndLetsThemFallOnceItIsRemoved) {
+    const BodyOnDisk body;
+    const SimulationPointer simulation = empty_simulation();
+    samara_body_group group = lying_group();
+    group.position[2] = 0.3;
+    add(simulation, body, group);
+    Text error;
+    const auto advance = [&](double time) { CALL(samara_advance_to, simulation.get(), time); };
+    const auto lowest = [&] {
+        samara_pose poses[6];
+        EXPECT_EQ(CALL(samara_get_poses, simulation.get(), 0, 6, poses, 0), SAMARA_OK);
+        double height = 1.0;
+        for (const samara_pose& pose : poses) height = std::min(height, pose.position[2]);
+        return height;
+    };
+    advance(0.1);
+    CallersObstacle top(table_top());
+    std::size_t number = 7;
+    ASSERT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, &number), SAMARA_OK)
+        << error.text();
+    EXPECT_EQ(number, 0U);
+    advance(4.0);
+    EXPECT_GT(lowest(), 0.025);
+    ASSERT_EQ(CALL(samara_remove_obstacle, simulation.get(), 0), SAMARA_OK) << error.text();
+    advance(5.0);
+    EXPECT_LT(lowest(), -0.1);
+    EXPECT_EQ(CALL(samara_remove_obstacle, simulation.get(), 0), SAMARA_INVALID_ARGUMENT);
+    EXPECT_THAT(error.text(), HasSubstr("is removed"));
+    EXPECT_EQ(CALL(samara_remove_obstacle, simulation.get(), 1), SAMARA_INVALID_ARGUMENT);
+    // Its name is free again, and it has a number of its own.
+    top.obstacle.name = "obstacle-0";
+    ASSERT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, &number), SAMARA_OK)
+        << error.text();
+    EXPECT_EQ(number, 1U);
+}
+
+TEST(CObstacle, ThatWasRemovedIsPartOfAState) {
+    const BodyOnDisk body;
+    const CallersObstacle top(table_top());
+    const SimulationPointer one = simulation_with(top.obstacle);
+    const SimulationPointer other = simulation_with(top.obstacle);
+    for (const SimulationPointer* simulation : {&one, &other}) add(*simulation, body, lying_group());
+    Text error;
+    std::vector<char> state(samara_state_size(one.get()));
+    ASSERT_EQ(CALL(samara_get_state, one.get(), state.data(), state.size()), SAMARA_OK);
+    EXPECT_EQ(CALL(samara_set_state, other.get(), state.data(), state.size()), SAMARA_OK);
+    ASSERT_EQ(CALL(samara_remove_obstacle, other.get(), 0), SAMARA_OK);
+    EXPECT_NE(CALL(samara_set_state, other.get(), state.data(), state.size()), SAMARA_OK);
 }
 
 TEST(CObstacle, IsMovedByItsNumberAndByKeysInOrder) {

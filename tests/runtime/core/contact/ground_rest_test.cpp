@@ -1,6 +1,7 @@
 // Bodies that come to rest on the ground, stay there, and wake.
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -198,6 +199,50 @@ TEST(GroundRest, AStrongGustMovesABodyAndAWeakOneDoesNot) {
             EXPECT_TRUE(state.at_rest);
         } else {
             EXPECT_GT(farthest, 0.01);
+        }
+    }
+}
+
+TEST(GroundRest, InAWindABodyAtRestIsJudgedEveryTwentyMillisecondsAloneAndInABatch) {
+    Surroundings surroundings = ground_at_zero();
+    Wind wind;
+    wind.gusts = WindGusts{.rms = 0.01, .length = 1.0};
+    surroundings.wind = std::make_shared<const WindField>(wind, Vector3d::Zero());
+    const BodyState start = test::above_ground(block(), Quaterniond::Identity(), 0.0);
+    const Noise noise(1, "body", 0, 0);
+    BodyState state = start;
+    int steps_taken = 0;
+    for (std::uint64_t i = 0; i < 101; ++i) {
+        const StepResult result = advance(block(), surroundings, 0.0, 0.002, state, noise, i);
+        steps_taken += result.substeps;
+        state = result.state;
+    }
+    EXPECT_TRUE(state.at_rest);
+    EXPECT_EQ(state.position, start.position);
+    EXPECT_EQ(steps_taken, 11);
+    Batch batch(block(), 3);
+    for (std::size_t i = 0; i < batch.size(); ++i) batch.set_state(i, start);
+    EXPECT_EQ(batch.advance(surroundings, 0.0, 0.002, 0, 101).implicit_steps, 33U);
+    expect_same_bits(batch.state(2), state);
+}
+
+TEST(GroundRest, AGustLiftsWhatTheAirBesideTheGroundCannotMove) {
+    // A wind that begins after a second: in the layer beside the ground the leaf lies still, without one it
+    // goes.
+    for (const bool layered : {true, false}) {
+        Surroundings surroundings = ground_at_zero();
+        BodyState state = test::above_ground(leaf(), Quaterniond::Identity(), 0.0005);
+        state = test::flown(leaf(), surroundings, state, 4.0, 0.002);
+        ASSERT_TRUE(state.at_rest);
+        Wind wind;
+        wind.velocity = Vector3d(2.0, 0.0, 0.0);
+        wind.surface_layer = WindSurfaceLayer{.height = layered ? 0.1 : 0.0};
+        surroundings.wind = std::make_shared<const WindField>(wind, Vector3d::Zero());
+        const BodyState end = test::flown(leaf(), surroundings, state, 2.0, 0.002);
+        if (layered) {
+            EXPECT_EQ(end.position, state.position);
+        } else {
+            EXPECT_GT((end.position - state.position).norm(), 0.01);
         }
     }
 }

@@ -57,6 +57,7 @@ TEST(BodyPhysics, IsReachedWholeByTheSceneFile) {
     const std::map<std::string, Line> lines = {
         {"density", {"density = 2", "density = 3"}},
         {"mass", {mass, "mass = 2"}},
+        {"area_density", {"area_density = 80", "area_density = 90"}},
         {"center_of_mass", {mass, "center_of_mass = [0, 0, 1]"}},
         {"inertia", {mass, "inertia = [1, 1, 1]"}},
         {"loads", {mass + "turbulence = \"none\"\n", "loads = \"none\""}},
@@ -78,8 +79,8 @@ TEST(BodyPhysics, IsReachedWholeByTheSceneFile) {
     const test::TemporaryFolder folder;
     for (const std::string& key : keys()) {
         const Line& line = lines.at(key);
-        const bool in_base =
-            line.base.find(key + " = ") != std::string::npos && (key == "mass" || key == "density");
+        const bool in_base = line.base.find(key + " = ") != std::string::npos &&
+                             (key == "mass" || key == "density" || key == "area_density");
         const std::string whole = in_base ? line.line : line.base + line.line;
         const std::string without = key == "turbulent_kinetic_energy" || key == "dissipation_rate"
                                         ? line.base + key + " = 1"
@@ -94,6 +95,7 @@ TEST(BodyPhysics, IsReachedWholeByTheCInterface) {
     const std::map<std::string, Change> changes = {
         {"density", [](samara_body_group& k) { k.mass = 0.0, k.density = 2.0; }},
         {"mass", [](samara_body_group& k) { k.mass = 2.0; }},
+        {"area_density", [](samara_body_group& k) { k.mass = 0.0, k.area_density = 80.0; }},
         {"center_of_mass", [](samara_body_group& k) { k.has_center_of_mass = 1; }},
         {"inertia", [](samara_body_group& k) { k.inertia[0] = k.inertia[4] = k.inertia[8] = 1.0; }},
         {"loads", [](samara_body_group& k) { k.loads = SAMARA_LOADS_COEFFICIENTS; }},
@@ -117,7 +119,7 @@ TEST(BodyPhysics, IsReachedWholeByTheCInterface) {
         samara_body_group changed = plain;
         changes.at(key)(changed);
         std::set<std::string> expected = {key};
-        if (key == "density") expected.insert("mass");  // they exclude each other
+        if (key == "density" || key == "area_density") expected.insert("mass");  // they exclude each other
         EXPECT_EQ(differences(read_group(changed), read_group(plain)), expected);
     }
 }

@@ -83,6 +83,20 @@ TEST(Crowd, SoItDoesWithACentreOfMassBesideTheCentroid) {
     EXPECT_LT((last_pose(of_size, 1).position - last_pose(of_file, 1).position).norm(), 1e-9);
 }
 
+TEST(Crowd, WithAMassByAreaItHasTheThicknessOfTheShape) {
+    // A file of twice the size has four times the area, and half of the density.
+    Scene scene = crowd(2);
+    scene.bodies[0].mass = {};
+    scene.bodies[0].mass.area_density = 12.0;
+    expect_moves_like_a_file_of_twice_the_size(scene, 1e-9);
+    scene.bodies[0].mass = {};
+    scene.bodies[0].mass.density = 12.0 * 0.5 * rubber().moments.surface_area / rubber().moments.volume;
+    const Motion by_density = flown(scene, rubber());
+    scene.bodies[0].mass = {};
+    scene.bodies[0].mass.area_density = 12.0;
+    EXPECT_EQ(last_pose(flown(scene, rubber()), 1).position, last_pose(by_density, 1).position);
+}
+
 TEST(Crowd, SoItDoesInTurbulenceOfTheTable) {
     Scene scene = crowd(2);
     scene.bodies[0].turbulence = Turbulence::table;
