@@ -42,21 +42,32 @@ Vector3d continued_angles(const Matrix3d& rotation, const Vector3d& before) {
     return (one - before).squaredNorm() <= (other - before).squaredNorm() ? one : other;
 }
 
-std::string channels(const Motion& motion, const BodyMotion& body, int run, int copy) {
+std::string channels(const Motion& motion, const BodyMotion& body, int run, int copy, ChanLayout layout) {
     Matrix3d y_up;
     y_up << 1, 0, 0,  //
         0, 0, 1,      //
         0, -1, 0;
+    // Rz Ry Rx is Ry Rx Rz in axes renamed y -> z -> x -> y.
+    Matrix3d renamed = Matrix3d::Identity();
+    if (layout == ChanLayout::houdini) {
+        renamed << 0, 1, 0,  //
+            0, 0, 1,         //
+            1, 0, 0;
+    }
     fmt::memory_buffer text;
     Vector3d angles = Vector3d::Zero();
     const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
+    const Matrix3d to_angles = renamed * y_up;
     for (std::size_t frame = 0; frame < poses.size(); ++frame) {
         const Vector3d place = y_up * poses[frame].position;
-        angles =
-            continued_angles(y_up * poses[frame].orientation.toRotationMatrix() * y_up.transpose(), angles);
-        const Vector3d in_degrees = angles * degrees;
-        fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {}\n",
-                       std::lround(motion.times[frame] * motion.frame_rate), place.x(), place.y(), place.z(),
+        angles = continued_angles(
+            to_angles * poses[frame].orientation.toRotationMatrix() * to_angles.transpose(), angles);
+        const Vector3d in_degrees = renamed.transpose() * angles * degrees;
+        if (layout == ChanLayout::nuke) {
+            fmt::format_to(std::back_inserter(text), "{} ",
+                           std::lround(motion.times[frame] * motion.frame_rate));
+        }
+        fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {}\n", place.x(), place.y(), place.z(),
                        in_degrees.x(), in_degrees.y(), in_degrees.z());
     }
     return fmt::to_string(text);
@@ -77,7 +88,8 @@ void require_whole_frames(const std::filesystem::path& file, const Motion& motio
 }  // namespace
 
 std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file, const Motion& motion,
-                                              int run, const ExportProgress& progress) {
+                                              int run, const ExportProgress& progress, ChanLayout layout,
+                                              int first_copy) {
     require_whole_frames(file, motion);
     require_float_range(file, motion, run);
     int total = 0;
@@ -88,12 +100,12 @@ std::vector<std::filesystem::path> write_chan(const std::filesystem::path& file,
         for (int copy = 0; copy < body.copies; ++copy) {
             std::filesystem::path target = file;
             if (!single) {
-                std::string name = printable(copy_name(body, copy));
+                std::string name = printable(copy_name(body, first_copy + copy));
                 for (char& letter : name) letter = letter == '/' ? '_' : letter;
                 target.replace_filename(
                     fmt::format("{}_{}{}", file.stem().string(), name, file.extension().string()));
             }
-            replace_file_with(target, channels(motion, body, run, copy));
+            replace_file_with(target, channels(motion, body, run, copy, layout));
             files.push_back(target);
             if (progress) progress(static_cast<double>(files.size()), total);
         }

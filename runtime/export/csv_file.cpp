@@ -31,12 +31,14 @@ std::string csv_field(const std::string& name) {
     return quoted + '"';
 }
 
-void append_rows(fmt::memory_buffer& rows, const Motion& motion, const BodyMotion& body, int run, int copy) {
+void append_rows(fmt::memory_buffer& rows, const Motion& motion, const BodyMotion& body, int run, int copy,
+                 int first_copy) {
     const std::string field = csv_field(body.name);
     const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
     for (std::size_t frame = 0; frame < poses.size(); ++frame) {
         const ShapePose& p = poses[frame];
-        fmt::format_to(std::back_inserter(rows), "{},{},{},{}", run, field, copy, motion.times[frame]);
+        fmt::format_to(std::back_inserter(rows), "{},{},{},{}", run, field, first_copy + copy,
+                       motion.times[frame]);
         for (const double value :
              {p.position.x(), p.position.y(), p.position.z(), p.orientation.w(), p.orientation.x(),
               p.orientation.y(), p.orientation.z(), p.velocity.x(), p.velocity.y(), p.velocity.z(),
@@ -50,7 +52,7 @@ void append_rows(fmt::memory_buffer& rows, const Motion& motion, const BodyMotio
 }  // namespace
 
 std::size_t write_csv(const std::filesystem::path& file, const Motion& motion, const std::optional<int>& run,
-                      const ExportProgress& progress) {
+                      const ExportProgress& progress, int first_copy) {
     const int first_run = run.value_or(0);
     const int end_run = run ? *run + 1 : motion.runs;
     std::size_t copies = 0;
@@ -64,7 +66,7 @@ std::size_t write_csv(const std::filesystem::path& file, const Motion& motion, c
             for (const BodyMotion& body : motion.bodies) {
                 for (int copy = 0; copy < body.copies && stream; ++copy) {
                     rows.clear();
-                    append_rows(rows, motion, body, r, copy);
+                    append_rows(rows, motion, body, r, copy, first_copy);
                     stream.write(rows.data(), static_cast<std::streamsize>(rows.size()));
                     done += motion.times.size();
                     if (progress) progress(static_cast<double>(done), static_cast<double>(total));

@@ -2,218 +2,22 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <ostream>
-#include <string_view>
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/text.hpp"
-#include "samara/core/base/version.hpp"
 #include "samara/core/files/replace_file.hpp"
-#include "samara/core/surface/display_image.hpp"
 #include "samara/export/float_range.hpp"
+#include "samara/export/gltf_meshes.hpp"
 #include "samara/export/key_reduction.hpp"
-#include "samara/export/shaded_mesh.hpp"
 #include "samara/export/shape_pose.hpp"
 
 namespace samara {
 namespace {
 
-/// Returns a vector of the world (z up) in glTF's axes (y up).
-Vector3d y_up(const Vector3d& vector) {
-    return {vector.x(), vector.z(), -vector.y()};
-}
-
-/// Returns the components of a rotation between z-up axes, for glTF's axes and order (x, y, z, w).
-Eigen::Vector4d y_up(const Quaterniond& rotation) {
-    Eigen::Vector4d components;
-    components << y_up(Vector3d(rotation.vec())), rotation.w();
-    return components;
-}
-
-/// Fills the buffer of a glTF model, one accessor after another.
-class Builder {
-  public:
-    Builder() {
-        model_.asset.version = "2.0";
-        model_.asset.generator = std::string("samara ") + version;
-        model_.buffers.emplace_back();
-    }
-
-    tinygltf::Model& model() { return model_; }
-
-    /// Begins a view of the buffer that the accessors added next share; `target` as in glTF, 0 for
-    /// animations.
-    void begin_view(int target) {
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = bytes().size();
-        view.target = target;
-        model_.bufferViews.push_back(view);
-    }
-
-    /// Adds values of `components` floats each, with their bounds; returns the accessor's index.
-    int add_floats(const std::vector<float>& values, std::size_t components, int type) {
-        tinygltf::Accessor accessor = next_accessor(values.size() / components, type);
-        accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-        accessor.minValues.assign(components, std::numeric_limits<double>::infinity());
-        accessor.maxValues.assign(components, -std::numeric_limits<double>::infinity());
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            double& lowest = accessor.minValues[i % components];
-            double& highest = accessor.maxValues[i % components];
-            lowest = std::min(lowest, static_cast<double>(values[i]));
-            highest = std::max(highest, static_cast<double>(values[i]));
-        }
-        return add(accessor, values.data(), values.size() * sizeof(float));
-    }
-
-    int add_indices(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-        tinygltf::Accessor accessor = next_accessor(3 * triangles.size(), TINYGLTF_TYPE_SCALAR);
-        accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-        return add(accessor, triangles.data(), triangles.size() * sizeof triangles[0]);
-    }
-
-    /// Adds a texture of an image file; returns its number.
-    int add_texture(const DisplayImage& image) {
-        begin_view(0);
-        bytes().insert(bytes().end(), image.bytes.begin(), image.bytes.end());
-        model_.bufferViews.back().byteLength = image.bytes.size();
-        bytes().resize((bytes().size() + 3) / 4 * 4);  // floats follow
-        tinygltf::Image added;
-        added.name = printable(image.name);
-        added.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
-        added.mimeType = image_type(image.bytes) == std::string_view("png") ? "image/png" : "image/jpeg";
-        model_.images.push_back(added);
-        tinygltf::Texture texture;
-        texture.source = static_cast<int>(model_.images.size()) - 1;
-        model_.textures.push_back(texture);
-        return static_cast<int>(model_.textures.size()) - 1;
-    }
-
-  private:
-    std::vector<unsigned char>& bytes() { return model_.buffers[0].data; }
-
-    tinygltf::Accessor next_accessor(std::size_t count, int type) {
-        tinygltf::Accessor accessor;
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
-        accessor.byteOffset = model_.bufferViews.back().byteLength;
-        accessor.count = count;
-        accessor.type = type;
-        return accessor;
-    }
-
-    int add(const tinygltf::Accessor& accessor, const void* data, std::size_t size) {
-        const auto* first = static_cast<const unsigned char*>(data);
-        bytes().insert(bytes().end(), first, first + size);
-        model_.bufferViews.back().byteLength += size;
-        model_.accessors.push_back(accessor);
-        return static_cast<int>(model_.accessors.size()) - 1;
-    }
-
-    tinygltf::Model model_;
-};
-
-void append(std::vector<float>& values, const auto& vector) {
-    for (const double value : vector) values.push_back(static_cast<float>(value));
-}
-
-std::vector<float> y_up_floats(const std::vector<Vector3d>& vectors) {
-    std::vector<float> values;
-    values.reserve(3 * vectors.size());
-    for (const Vector3d& vector : vectors) append(values, y_up(vector));
-    return values;
-}
-
-/// Adds a mesh; returns its number. `material`: the number of its material.
-int add_mesh(Builder& builder, const std::string& name, const Surface& surface, int material,
-             const std::filesystem::path& file) {
-    const ShadedMesh shaded = shaded_mesh(surface);
-    if (shaded.triangles.empty()) {
-        throw Error(fmt::format("{}: the surface of {} has no area to show", file.string(), name));
-    }
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = material;
-    builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.attributes["POSITION"] =
-        builder.add_floats(y_up_floats(shaded.positions), 3, TINYGLTF_TYPE_VEC3);
-    builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.attributes["NORMAL"] = builder.add_floats(y_up_floats(shaded.normals), 3, TINYGLTF_TYPE_VEC3);
-    builder.begin_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    primitive.indices = builder.add_indices(shaded.triangles);
-    tinygltf::Mesh mesh;
-    mesh.name = printable(name);
-    mesh.primitives.push_back(primitive);
-    builder.model().meshes.push_back(mesh);
-    return static_cast<int>(builder.model().meshes.size()) - 1;
-}
-
-tinygltf::Material matte_material(const char* name, double grey) {
-    tinygltf::Material material;
-    material.name = name;
-    material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
-    material.pbrMetallicRoughness.metallicFactor = 0.0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.6;
-    return material;
-}
-
-/// Returns a mesh of as many parts as the display mesh has materials in use; adds these to the model.
-int add_display(Builder& builder, const std::string& name, const DisplayMesh& display) {
-    tinygltf::Mesh mesh;
-    mesh.name = printable(name);
-    const auto first_material = static_cast<int>(builder.model().materials.size());
-    std::map<std::string, int> attributes;
-    builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-    attributes["POSITION"] = builder.add_floats(y_up_floats(display.positions), 3, TINYGLTF_TYPE_VEC3);
-    if (!display.normals.empty()) {
-        builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-        attributes["NORMAL"] = builder.add_floats(y_up_floats(display.normals), 3, TINYGLTF_TYPE_VEC3);
-    }
-    if (!display.texture.empty()) {
-        std::vector<float> values;
-        for (const Eigen::Vector2d& place : display.texture)
-            append(values, Eigen::Vector2d(place.x(), 1.0 - place.y()));
-        builder.begin_view(TINYGLTF_TARGET_ARRAY_BUFFER);
-        attributes["TEXCOORD_0"] = builder.add_floats(values, 2, TINYGLTF_TYPE_VEC2);
-    }
-    std::vector<int> textures;
-    for (const DisplayImage& image : display.images) textures.push_back(builder.add_texture(image));
-    for (std::size_t slot = 0; slot < display.materials.size(); ++slot) {
-        const DisplayMaterial& material = display.materials[slot];
-        builder.model().materials.push_back(matte_material(printable(material.name).c_str(), 1.0));
-        tinygltf::Material& added = builder.model().materials.back();
-        added.pbrMetallicRoughness.baseColorFactor.assign(material.color.begin(), material.color.end());
-        added.doubleSided = true;  // a display mesh may be a sheet
-        if (material.image >= 0) {
-            added.pbrMetallicRoughness.baseColorTexture.index =
-                textures[static_cast<std::size_t>(material.image)];
-        }
-        if (material.transparency == DisplayTransparency::cut_out) added.alphaMode = "MASK";
-        if (material.transparency == DisplayTransparency::blended || material.color[3] < 1.0) {
-            added.alphaMode = "BLEND";
-        }
-        std::vector<std::array<std::uint32_t, 3>> triangles;
-        for (std::size_t i = 0; i < display.corners.size(); ++i) {
-            if (display.slots[i] != static_cast<std::int32_t>(slot)) continue;
-            const auto& [a, b, c] = display.corners[i];
-            triangles.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                 static_cast<std::uint32_t>(c)});
-        }
-        if (triangles.empty()) continue;
-        tinygltf::Primitive primitive;
-        primitive.mode = TINYGLTF_MODE_TRIANGLES;
-        primitive.material = first_material + static_cast<int>(slot);
-        primitive.attributes = attributes;
-        builder.begin_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-        primitive.indices = builder.add_indices(triangles);
-        mesh.primitives.push_back(primitive);
-    }
-    builder.model().meshes.push_back(mesh);
-    return static_cast<int>(builder.model().meshes.size()) - 1;
-}
+constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
 /// Returns the node's index.
 int add_node(tinygltf::Model& model, const std::string& name, int mesh, const ShapePose& start) {
@@ -228,6 +32,35 @@ int add_node(tinygltf::Model& model, const std::string& name, int mesh, const Sh
     const int index = static_cast<int>(model.nodes.size()) - 1;
     model.scenes[0].nodes.push_back(index);
     return index;
+}
+
+/// Adds a node with all copies of a body that one of its meshes shows, as instances at their first frame.
+void add_instances(GltfBuilder& builder, const Motion& motion, const BodyMotion& body, int run,
+                   const CopyMeshes& meshes, std::size_t number) {
+    std::vector<float> translations;
+    std::vector<float> rotations;
+    std::vector<float> scales;
+    for (int copy = static_cast<int>(number); copy < body.copies; copy += static_cast<int>(meshes.size())) {
+        const ShapePose pose = shape_poses(motion, body, run, copy).front();
+        append(translations, y_up(pose.position));
+        append(rotations, y_up(pose.orientation));
+        append(scales, Vector3d(Vector3d::Constant(body.size(run, copy))));
+    }
+    tinygltf::Node node;
+    node.mesh = meshes[number];
+    node.name = builder.model().meshes[static_cast<std::size_t>(node.mesh)].name;
+    builder.begin_view(0);
+    tinygltf::Value::Object attributes;
+    attributes["TRANSLATION"] = tinygltf::Value(builder.add_floats(translations, 3, TINYGLTF_TYPE_VEC3));
+    attributes["ROTATION"] = tinygltf::Value(builder.add_floats(rotations, 4, TINYGLTF_TYPE_VEC4));
+    if (!body.sizes.empty()) {
+        attributes["SCALE"] = tinygltf::Value(builder.add_floats(scales, 3, TINYGLTF_TYPE_VEC3));
+    }
+    node.extensions[instancing] =
+        tinygltf::Value(tinygltf::Value::Object{{"attributes", tinygltf::Value(attributes)}});
+    tinygltf::Model& model = builder.model();
+    model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(std::move(node));
 }
 
 void add_channel(tinygltf::Animation& animation, int node, const char* path, int times, int keys) {
@@ -264,7 +97,7 @@ std::vector<float> checked_times(const Motion& motion, const std::filesystem::pa
 /// The keys of one run, added body by body.
 class Keys {
   public:
-    Keys(Builder& builder, const Motion& motion, const std::vector<float>& times,
+    Keys(GltfBuilder& builder, const Motion& motion, const std::vector<float>& times,
          tinygltf::Animation& animation)
         : builder_(builder),
           motion_(motion),
@@ -312,7 +145,7 @@ class Keys {
         return accessor;
     }
 
-    Builder& builder_;
+    GltfBuilder& builder_;
     const Motion& motion_;
     const std::vector<float>& times_;
     std::vector<double> key_times_;
@@ -323,27 +156,39 @@ class Keys {
 }  // namespace
 
 std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, int run,
-                      const std::optional<double>& tolerance) {
+                      const std::optional<double>& tolerance, const CopyStyle& style, bool instances) {
     require_float_range(file, motion, run);
-    Builder builder;
+    const bool moves = motion.times.size() > 1;
+    if (instances && moves) {
+        throw Error(
+            fmt::format("{}: the instances of glTF cannot move; export one frame (--at SECONDS), or nodes",
+                        file.string()));
+    }
+    GltfBuilder builder;
     tinygltf::Model& model = builder.model();
     model.scenes.emplace_back();
     model.defaultScene = 0;
-    model.materials.push_back(matte_material("body", 0.8));
     tinygltf::Animation animation;
     animation.name = "motion";
-    const bool moves = motion.times.size() > 1;
     const std::vector<float> times = moves ? checked_times(motion, file) : std::vector<float>{};
     Keys keys(builder, motion, times, animation);
     std::size_t count = 0;
+    ColorMaterials materials;
     for (const BodyMotion& body : motion.bodies) {
-        const int mesh = body.display != nullptr ? add_display(builder, body.name, *body.display)
-                                                 : add_mesh(builder, body.name, body.surface, 0, file);
+        const CopyMeshes meshes = add_meshes(builder, body, style, materials, file);
+        if (instances && body.copies > 1) {
+            for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+                add_instances(builder, motion, body, run, meshes, mesh);
+            }
+            model.extensionsUsed = model.extensionsRequired = {instancing};
+            continue;
+        }
         const KeyTolerance body_tolerance = key_tolerance(body, tolerance);
         if (moves) builder.begin_view(0);
         for (int copy = 0; copy < body.copies; ++copy) {
             const std::vector<ShapePose> poses = shape_poses(motion, body, run, copy);
-            const int node = add_node(model, copy_name(body, copy), mesh, poses.front());
+            const int mesh = meshes[static_cast<std::size_t>(copy) % meshes.size()];
+            const int node = add_node(model, style.name(body, copy), mesh, poses.front());
             if (!body.sizes.empty()) {
                 model.nodes[static_cast<std::size_t>(node)].scale.assign(3, body.size(run, copy));
             }
@@ -352,7 +197,7 @@ std::size_t write_glb(const std::filesystem::path& file, const Motion& motion, i
     }
     const auto obstacle_material = static_cast<int>(model.materials.size());
     if (!motion.obstacles.empty()) {
-        model.materials.push_back(matte_material("obstacle", 0.5));
+        model.materials.push_back(matte_material("obstacle", Vector3d::Constant(0.5)));
         model.materials.back().doubleSided = true;
     }
     for (const Obstacle& obstacle : motion.obstacles) {

@@ -31,6 +31,7 @@ extern const char samara_page_end[];
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/text.hpp"
 #include "samara/core/files/replace_file.hpp"
+#include "samara/core/surface/display_image.hpp"
 #include "samara/export/float_range.hpp"
 #include "samara/export/shaded_mesh.hpp"
 #include "samara/motion/inclination.hpp"
@@ -105,6 +106,54 @@ void write_mesh(std::ostream& stream, const std::string& name, const Surface& su
     write_array(stream, name + "-triangles", triangles);
 }
 
+/// Writes what write_mesh() writes, of a display mesh with its triangles in the order of their materials, and
+/// its texture coordinates and images.
+void write_display(std::ostream& stream, const std::string& name, const DisplayMesh& display,
+                   const Vector3d& origin) {
+    std::vector<float> points;
+    std::vector<float> normals;
+    std::vector<float> texture;
+    std::vector<std::int32_t> triangles;
+    for (const Vector3d& position : display.positions) append_floats(points, Vector3d(position - origin));
+    for (const Vector3d& normal : display.normals) append_floats(normals, normal);
+    for (const Eigen::Vector2d& place : display.texture) append_floats(texture, place);
+    for (std::size_t slot = 0; slot < display.materials.size(); ++slot) {
+        for (std::size_t i = 0; i < display.corners.size(); ++i) {
+            if (display.slots[i] != static_cast<std::int32_t>(slot)) continue;
+            triangles.insert(triangles.end(), display.corners[i].begin(), display.corners[i].end());
+        }
+    }
+    write_array(stream, name + "-points", points);
+    write_array(stream, name + "-normals", normals);
+    write_array(stream, name + "-texture", texture);
+    write_array(stream, name + "-triangles", triangles);
+    for (std::size_t i = 0; i < display.images.size(); ++i) {
+        const std::string& bytes = display.images[i].bytes;
+        write_array(stream, fmt::format("{}-image-{}", name, i),
+                    std::vector<char>(bytes.begin(), bytes.end()));
+    }
+}
+
+/// Returns the materials of a display mesh, each with the number of its triangles, and the types of its
+/// images.
+nlohmann::json look_of(const DisplayMesh& display) {
+    nlohmann::json look = {{"materials", nlohmann::json::array()}, {"images", nlohmann::json::array()}};
+    for (std::size_t slot = 0; slot < display.materials.size(); ++slot) {
+        const DisplayMaterial& material = display.materials[slot];
+        look["materials"].push_back(
+            {{"color", material.color},
+             {"image", material.image},
+             {"cut_out", material.transparency == DisplayTransparency::cut_out},
+             {"blended", material.transparency == DisplayTransparency::blended || material.color[3] < 1.0},
+             {"triangles", std::count(display.slots.begin(), display.slots.end(), slot)}});
+    }
+    for (const DisplayImage& image : display.images) {
+        look["images"].push_back(image_type(image.bytes) == std::string_view("png") ? "image/png"
+                                                                                    : "image/jpeg");
+    }
+    return look;
+}
+
 /// Returns position and quaternion (x, y, z, w) of an obstacle at each frame; for one at rest once.
 std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
     std::vector<float> floats;
@@ -119,12 +168,19 @@ std::vector<float> places_of(const Motion& motion, const Obstacle& obstacle) {
 
 /// Returns the page's description of the motion, JSON in ASCII and without "<": nothing in it ends or opens
 /// an element of the page.
-std::string header_of(const Motion& motion, int run, const std::string& title, const std::string& detail) {
-    nlohmann::json header = {{"title", title}, {"detail", detail}, {"frame_rate", motion.frame_rate}};
+std::string header_of(const Motion& motion, int run, const std::string& title, const std::string& detail,
+                      const CopyStyle& style) {
+    nlohmann::json header = {{"title", title},
+                             {"detail", detail},
+                             {"frame_rate", motion.frame_rate},
+                             {"first_copy", style.first},
+                             {"colors", nlohmann::json::array()}};
+    for (const Vector3d& color : style.colors) header["colors"].push_back({color.x(), color.y(), color.z()});
     header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);
     for (const BodyMotion& body : motion.bodies) {
         header["bodies"].push_back(
             {{"name", body.name}, {"copies", body.copies}, {"radius", radius_of(body)}});
+        if (body.display != nullptr) header["bodies"].back()["look"] = look_of(*body.display);
         for (int copy = 0; !body.sizes.empty() && copy < body.copies; ++copy) {
             header["bodies"].back()["sizes"].push_back(body.size(run, copy));
         }
@@ -160,7 +216,7 @@ bool has_page() {
 }
 
 void write_page(const std::filesystem::path& file, const Motion& motion, int run, const std::string& title,
-                const std::string& detail) {
+                const std::string& detail, const CopyStyle& style) {
     const std::string_view page = page_bytes();
     const std::size_t place = page.find(mark);
     if (place == std::string_view::npos) {
@@ -173,11 +229,15 @@ void write_page(const std::filesystem::path& file, const Motion& motion, int run
     require_float_range(file, motion, run);
     replace_file_by_stream(file, [&](std::ostream& stream) {
         stream << page.substr(0, place) << "<script type=\"application/json\" id=\"motion-header\">"
-               << header_of(motion, run, title, detail) << "</script>\n";
+               << header_of(motion, run, title, detail, style) << "</script>\n";
         write_array(stream, "times", motion.times);
         for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
             const BodyMotion& body = motion.bodies[b];
-            write_mesh(stream, std::to_string(b), body.surface, body.center_of_mass);
+            if (body.display != nullptr) {
+                write_display(stream, std::to_string(b), *body.display, body.center_of_mass);
+            } else {
+                write_mesh(stream, std::to_string(b), body.surface, body.center_of_mass);
+            }
             write_array(stream, fmt::format("{}-poses", b), poses_of(motion, body, run));
         }
         for (std::size_t i = 0; i < motion.obstacles.size(); ++i) {

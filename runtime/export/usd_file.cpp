@@ -60,8 +60,14 @@ ImageFiles write_images(const std::filesystem::path& stage, const Motion& motion
 /// Writes the stage of one run.
 class Stage {
   public:
-    Stage(std::ostream& stream, const Motion& motion, int run, const ImageFiles& images)
-        : stream_(stream), motion_(motion), run_(run), images_(images), codes_(time_codes(motion)) {}
+    Stage(std::ostream& stream, const Motion& motion, int run, const ImageFiles& images,
+          const CopyStyle& style)
+        : stream_(stream),
+          motion_(motion),
+          run_(run),
+          images_(images),
+          style_(style),
+          codes_(time_codes(motion)) {}
 
     std::size_t write(const std::optional<double>& tolerance) {
         print(
@@ -92,6 +98,7 @@ class Stage {
     }
 
     [[nodiscard]] std::string shape_of(const BodyMotion& body, std::size_t indent) const {
+        if (style_.colors_copies_of(body)) return usd_mesh(body.surface, indent, std::nullopt);
         if (body.display == nullptr) return usd_mesh(body.surface, indent);
         const auto number = static_cast<std::size_t>(&body - motion_.bodies.data());
         return usd_display(*body.display, images_[number], indent);
@@ -100,8 +107,11 @@ class Stage {
     void write_transforms(const BodyMotion& body, const KeyTolerance& tolerance) {
         std::string first;
         for (int copy = 0; copy < body.copies; ++copy) {
-            const std::string name = names_(copy_name(body, copy));
+            const std::string name = names_(style_.name(body, copy));
             print("    def Xform \"{}\"\n    {{\n", name);
+            if (style_.colors_copies_of(body)) {
+                print("        color3f[] primvars:displayColor = [{}]\n", usd_float3(style_.color(copy)));
+            }
             write_samples(shape_poses(motion_, body, run_, copy), tolerance, body.size(run_, copy));
             if (copy == 0) {
                 first = name;
@@ -132,6 +142,14 @@ class Stage {
             orientations.push_back(pose.orientation);
             stored.emplace_back(pose.orientation.coeffs().cast<float>().cast<double>().normalized());
         }
+        if (codes_.size() == 1) {
+            const Vector3d& p = positions.front();
+            print("        quatf xformOp:orient = {}\n        double3 xformOp:translate = ({}, {}, {})\n",
+                  quatf(orientations.front()), p.x(), p.y(), p.z());
+            samples_ += 2;
+            write_order(size);
+            return;
+        }
         print("        quatf xformOp:orient.timeSamples = {{\n");
         for (const std::size_t key : kept_keys({codes_, orientations, codes_, stored}, tolerance.angle)) {
             print("            {}: {},\n", codes_[key], quatf(orientations[key]));
@@ -144,6 +162,11 @@ class Stage {
             ++samples_;
         }
         print("        }}\n");
+        write_order(size);
+    }
+
+    /// Writes a size other than 1, and the order of an Xform's operations.
+    void write_order(double size) {
         if (size == 1.0) {
             print("        uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]\n");
             return;
@@ -190,6 +213,13 @@ class Stage {
             }
             print("]\n");
         }
+        if (style_.colors_copies_of(body)) {
+            print("        color3f[] primvars:displayColor = [");
+            for (int copy = 0; copy < body.copies; ++copy) {
+                print("{}{}", copy == 0 ? "" : ", ", usd_float3(style_.color(copy)));
+            }
+            print("] (\n            interpolation = \"vertex\"\n        )\n");
+        }
         write_array("point3f[] positions", copies, [&](std::size_t copy, std::size_t frame) {
             return usd_float3(poses[copy][frame].position);
         });
@@ -199,13 +229,15 @@ class Stage {
         write_array("quatf[] orientationsf", copies, [&](std::size_t copy, std::size_t frame) {
             return quatf(poses[copy][frame].orientation);
         });
-        // Between the samples readers go on by these, and motion blur is drawn by them.
-        write_array("vector3f[] velocities", copies, [&](std::size_t copy, std::size_t frame) {
-            return usd_float3(poses[copy][frame].velocity);
-        });
-        write_array("vector3f[] angularVelocities", copies, [&](std::size_t copy, std::size_t frame) {
-            return usd_float3(poses[copy][frame].angular_velocity * (180.0 / std::numbers::pi));
-        });
+        // Between the samples readers go on by these, and motion blur is drawn by them. A still has none.
+        if (codes_.size() > 1) {
+            write_array("vector3f[] velocities", copies, [&](std::size_t copy, std::size_t frame) {
+                return usd_float3(poses[copy][frame].velocity);
+            });
+            write_array("vector3f[] angularVelocities", copies, [&](std::size_t copy, std::size_t frame) {
+                return usd_float3(poses[copy][frame].angular_velocity * (180.0 / std::numbers::pi));
+            });
+        }
         samples_ += 2 * copies * codes_.size();
         print(
             "\n        def Scope \"prototypes\"\n        {{\n            def Xform \"shape\"\n"
@@ -223,14 +255,25 @@ class Stage {
         return largest * reach;
     }
 
-    /// Writes an array at every frame, its values by value_at(item, frame).
+    /// Writes an array at every frame, or the value of a still, its values by value_at(item, frame).
     template <typename ValueAt>
     void write_array(const char* declaration, std::size_t items, const ValueAt& value_at) {
+        const auto print_values = [&](std::size_t frame) {
+            print("[{}", value_at(0, frame));
+            for (std::size_t item = 1; item < items; ++item) print(", {}", value_at(item, frame));
+            print("]");
+        };
+        if (codes_.size() == 1) {
+            print("        {} = ", declaration);
+            print_values(0);
+            print("\n");
+            return;
+        }
         print("        {}.timeSamples = {{\n", declaration);
         for (std::size_t frame = 0; frame < codes_.size(); ++frame) {
-            print("            {}: [{}", codes_[frame], value_at(0, frame));
-            for (std::size_t item = 1; item < items; ++item) print(", {}", value_at(item, frame));
-            print("],\n");
+            print("            {}: ", codes_[frame]);
+            print_values(frame);
+            print(",\n");
         }
         print("        }}\n");
     }
@@ -239,6 +282,7 @@ class Stage {
     const Motion& motion_;
     int run_;
     const ImageFiles& images_;
+    const CopyStyle& style_;
     std::vector<double> codes_;
     PrimNames names_;
     fmt::memory_buffer text_;
@@ -248,12 +292,13 @@ class Stage {
 }  // namespace
 
 std::size_t write_usda(const std::filesystem::path& file, const Motion& motion, int run,
-                       const std::optional<double>& tolerance) {
+                       const std::optional<double>& tolerance, const CopyStyle& style) {
     require_float_range(file, motion, run);
     std::size_t samples = 0;
     const ImageFiles images = write_images(file, motion);
-    replace_file_by_stream(
-        file, [&](std::ostream& stream) { samples = Stage(stream, motion, run, images).write(tolerance); });
+    replace_file_by_stream(file, [&](std::ostream& stream) {
+        samples = Stage(stream, motion, run, images, style).write(tolerance);
+    });
     return samples;
 }
 

@@ -110,7 +110,8 @@ std::string usd_float3(const Vector3d& vector) {
                        static_cast<float>(vector.z()));
 }
 
-std::string usd_mesh(const Surface& surface, std::size_t indent, double grey, bool double_sided) {
+std::string usd_mesh(const Surface& surface, std::size_t indent, const std::optional<double>& grey,
+                     bool double_sided) {
     const ShadedMesh mesh = shaded_mesh(surface);
     std::vector<std::string> points;
     const std::vector<std::size_t> point_of = welded(mesh.positions, points);
@@ -143,7 +144,7 @@ std::string usd_mesh(const Surface& surface, std::size_t indent, double grey, bo
     fmt::format_to(line, "{}normal3f[] normals = {} (\n{}    interpolation = \"{}\"\n{})\n", inner,
                    usd_list(normals, inner), inner, smooth ? "vertex" : "faceVarying", inner);
     fmt::format_to(line, "{}point3f[] points = {}\n", inner, usd_list(points, inner));
-    fmt::format_to(line, "{0}color3f[] primvars:displayColor = [({1}, {1}, {1})]\n", inner, grey);
+    if (grey) fmt::format_to(line, "{0}color3f[] primvars:displayColor = [({1}, {1}, {1})]\n", inner, *grey);
     if (double_sided) fmt::format_to(line, "{}uniform bool doubleSided = true\n", inner);
     fmt::format_to(line, "{}uniform token subdivisionScheme = \"none\"\n{}}}\n", inner, outer);
     return fmt::to_string(text);

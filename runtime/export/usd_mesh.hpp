@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cctype>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,8 +39,9 @@ std::string usd_float3(const Vector3d& vector);
 
 /// Returns the Mesh prim "mesh" of a surface, its lines indented by `indent` spaces: welded points,
 /// triangles, normals (at the points of a smooth surface, at the triangles' corners where there are creases),
-/// no subdivision. `grey`: its colour, from 0 to 1; `double_sided`: seen from behind, too.
-std::string usd_mesh(const Surface& surface, std::size_t indent, double grey = 0.8,
+/// no subdivision. `grey`: its colour, from 0 to 1, or none, where it takes that of the prims above it;
+/// `double_sided`: seen from behind, too.
+std::string usd_mesh(const Surface& surface, std::size_t indent, const std::optional<double>& grey = 0.8,
                      bool double_sided = false);
 
 /// Returns the Mesh prim "mesh" of a display mesh with its texture coordinates (primvars:st), a subset of

@@ -37,6 +37,39 @@ FramePlace place_of(const std::vector<double>& times, double time) {
     return place;
 }
 
+/// Returns the motion at other times (s, ascending), which are within its own.
+Motion sampled_at(const Motion& motion, const std::vector<double>& times) {
+    Motion result = motion;
+    result.times.clear();
+    std::vector<FramePlace> places;
+    for (const double time : times) {
+        const FramePlace place = place_of(motion.times, time);
+        places.push_back(place);
+        result.times.push_back(place.fraction == 0.0 ? motion.times[static_cast<std::size_t>(place.frame)]
+                                                     : time);
+    }
+    for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
+        const BodyMotion& body = motion.bodies[b];
+        std::vector<Pose>& poses = result.bodies[b].poses;
+        poses.clear();
+        poses.reserve(static_cast<std::size_t>(motion.runs) * places.size() *
+                      static_cast<std::size_t>(body.copies));
+        for (int run = 0; run < motion.runs; ++run) {
+            for (const FramePlace& place : places) {
+                for (int copy = 0; copy < body.copies; ++copy) {
+                    const Pose& before = motion.pose(body, run, place.frame, copy);
+                    poses.push_back(place.fraction == 0.0
+                                        ? before
+                                        : smoothly_interpolated(before,
+                                                                motion.pose(body, run, place.frame + 1, copy),
+                                                                place.fraction, place.duration));
+                }
+            }
+        }
+    }
+    return result;
+}
+
 /// Returns the frames of a period; throws Error where it has none.
 int frames_of(const Motion& motion, double period) {
     const double frames = period * motion.frame_rate;
@@ -85,36 +118,35 @@ Motion resampled(const Motion& motion, double frame_rate) {
         throw Error(
             fmt::format("{} frames per second give too many frames; lower the frame rate", frame_rate));
     }
-    Motion result = motion;
+    std::vector<double> times;
+    for (int i = 0; i < static_cast<int>(count); ++i) times.push_back(begin + i / frame_rate);
+    Motion result = sampled_at(motion, times);
     result.frame_rate = frame_rate;
-    result.times.clear();
-    std::vector<FramePlace> places;
-    for (int i = 0; i < static_cast<int>(count); ++i) {
-        const FramePlace place = place_of(motion.times, begin + i / frame_rate);
-        places.push_back(place);
-        result.times.push_back(place.fraction == 0.0 ? motion.times[static_cast<std::size_t>(place.frame)]
-                                                     : begin + i / frame_rate);
+    return result;
+}
+
+Motion slowed(Motion motion, double factor) {
+    motion.frame_rate /= factor;
+    for (double& time : motion.times) time *= factor;
+    for (Obstacle& obstacle : motion.obstacles) {
+        for (ObstacleKey& key : obstacle.keys) key.time *= factor;
     }
-    for (std::size_t b = 0; b < motion.bodies.size(); ++b) {
-        const BodyMotion& body = motion.bodies[b];
-        std::vector<Pose>& poses = result.bodies[b].poses;
-        poses.clear();
-        poses.reserve(static_cast<std::size_t>(motion.runs) * places.size() *
-                      static_cast<std::size_t>(body.copies));
-        for (int run = 0; run < motion.runs; ++run) {
-            for (const FramePlace& place : places) {
-                for (int copy = 0; copy < body.copies; ++copy) {
-                    const Pose& before = motion.pose(body, run, place.frame, copy);
-                    poses.push_back(place.fraction == 0.0
-                                        ? before
-                                        : smoothly_interpolated(before,
-                                                                motion.pose(body, run, place.frame + 1, copy),
-                                                                place.fraction, place.duration));
-                }
-            }
+    for (BodyMotion& body : motion.bodies) {
+        for (Pose& pose : body.poses) {
+            pose.velocity /= factor;
+            pose.angular_velocity /= factor;
         }
     }
-    return result;
+    return motion;
+}
+
+Motion still_at(const Motion& motion, double time) {
+    const double frame = same_time / motion.frame_rate;
+    if (!(time >= motion.times.front() - frame) || !(time <= motion.times.back() + frame)) {
+        throw Error(fmt::format("--at {:g}: the motion lasts from {:g} to {:g} s; give a time in between",
+                                time, motion.times.front(), motion.times.back()));
+    }
+    return sampled_at(motion, {std::clamp(time, motion.times.front(), motion.times.back())});
 }
 
 Motion looped(const Motion& motion, int run, double period) {

@@ -13,6 +13,14 @@ namespace samara {
 /// more than two thousand million frames.
 Motion resampled(const Motion& motion, double frame_rate);
 
+/// Returns the motion `factor` times slower: its times and those of its obstacles are multiplied by it, the
+/// velocities and the frame rate divided, so that the same frames are farther apart.
+Motion slowed(Motion motion, double factor);
+
+/// Returns a motion of one frame, at `time` (s), between two frames as resampled() has it. Throws Error where
+/// the motion has begun later or ended before.
+Motion still_at(const Motion& motion, double time);
+
 /// Returns a run of a motion as a loop of `period` (s): each copy's path is cut into pieces of that duration,
 /// which play side by side as copies of their own, so that each piece ends at the pose at which the next
 /// begins. The rest of the motion after the last whole piece is left out. Where all bodies had left the

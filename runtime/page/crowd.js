@@ -3,17 +3,25 @@
 import {
     BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, Vector3,
 } from 'three';
+import { materialsOf } from './look.js';
 import { poseAt } from './motion.js';
 
 /** The levels of detail: the least radius in pixels, and the most triangles. */
 const LEVELS = [{ from: 22, most: Infinity }, { from: 6, most: 320 }, { from: 0, most: 48 }];
 const LEAST_RADIUS = 3.5;  // pixels: smaller copies are drawn larger
 
-export function geometryOf({ points, normals, triangles }) {
+export function geometryOf({ points, normals, triangles, texture, look }) {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(points, 3));
-    geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    if (texture?.length > 0) geometry.setAttribute('uv', new BufferAttribute(texture, 2));
     geometry.setIndex(new BufferAttribute(triangles, 1));
+    if (normals.length > 0) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    else geometry.computeVertexNormals();
+    let first = 0;
+    look?.materials.forEach((material, slot) => {
+        geometry.addGroup(first, 3 * material.triangles, slot);
+        first += 3 * material.triangles;
+    });
     return geometry;
 }
 
@@ -66,7 +74,7 @@ function clustered({ points, normals, triangles }, cell) {
             const [x, y, z, count] = sums[place];
             return [x / count, y / count, z / count];
         })),
-        normals: Float32Array.from(shading.flatMap((shade) => {
+        normals: normals.length === 0 ? normals : Float32Array.from(shading.flatMap((shade) => {
             const length = Math.hypot(...shade) || 1;
             return shade.map((value) => value / length);
         })),
@@ -86,10 +94,15 @@ export function surfaceAt(body, level) {
     return surface;
 }
 
-/** Returns a different shade for each copy. */
-function shadesOf(color, copies) {
-    const shades = new Float32Array(3 * copies);
+/** Returns the colour of each copy: those of the motion in turn, or else a different shade of `color`; white with a look. */
+function shadesOf(body, color, motion) {
+    const { copies } = body;
+    const shades = new Float32Array(3 * copies).fill(1);
+    if (body.look) return shades;
     const shade = new Color();
+    const { colors, first_copy: start } = motion;
+    for (let copy = 0; colors.length > 0 && copy < copies; ++copy) shades.set(colors[(start + copy) % colors.length], 3 * copy);
+    if (colors.length > 0) return shades;
     for (let copy = 0; copy < copies; ++copy) {
         const part = copies > 1 ? ((copy * 0.618034) % 1) - 0.5 : 0;
         shade.copy(color).offsetHSL(0.03 * part, 0, 0.14 * part).toArray(shades, 3 * copy);
@@ -98,13 +111,15 @@ function shadesOf(color, copies) {
 }
 
 export class Crowd {
-    constructor(body, color, scene) {
+    /** `loaded` is called whenever an image of the body's look has arrived. */
+    constructor(body, color, motion, scene, loaded) {
         this.body = body;
-        this.shades = shadesOf(new Color(color), body.copies);
+        this.shades = shadesOf(body, new Color(color), motion);
         this.painted = null;
-        const material = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 });
+        const plain = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 });
+        const { materials, coarse } = body.look ? materialsOf(body, loaded) : { materials: plain, coarse: plain };
         const meshOf = (surface) => {
-            const mesh = new InstancedMesh(geometryOf(surface), material, body.copies);
+            const mesh = new InstancedMesh(geometryOf(surface), surface.look ? materials : coarse, body.copies);
             mesh.instanceMatrix.setUsage(DynamicDrawUsage);
             mesh.setColorAt(0, new Color());
             mesh.instanceColor.setUsage(DynamicDrawUsage);

@@ -43,8 +43,9 @@ function choose(body, copy) {
     chosen.copy = Math.min(Math.max(0, Math.trunc(copy) || 0), motion.bodies[body].copies - 1);
     const { copies } = motion.bodies[body];
     element('body').value = String(body);
-    element('copy').value = String(chosen.copy);
-    element('copy').max = String(copies - 1);
+    element('copy').value = String(motion.first_copy + chosen.copy);
+    element('copy').min = String(motion.first_copy);
+    element('copy').max = String(motion.first_copy + copies - 1);
     element('copy-choice').hidden = copies === 1;
     stage.choose(chosen.body, chosen.copy);
     series = MEASURES.map((measure) => seriesOf(motion, motion.bodies[body], chosen.copy, measure));
@@ -109,6 +110,11 @@ function showAll() {
     stale = true;
 }
 
+function showHelp(on) {
+    element('help').hidden = !on;
+    element('help-switch').setAttribute('aria-expanded', String(on));
+}
+
 const KEYS = {
     ' ': () => play(!playing),
     ArrowLeft: (event) => stepFrames(event.shiftKey ? -10 : -1),
@@ -120,6 +126,7 @@ const KEYS = {
     f: () => toggle('follow'),
     t: () => toggle('trail'),
     r: () => showAll(),
+    h: () => showHelp(element('help').hidden),
 };
 
 function fillControls() {
@@ -142,13 +149,14 @@ function fillControls() {
 function listen() {
     element('play').addEventListener('click', () => play(!playing));
     element('whole').addEventListener('click', showAll);
+    element('help-switch').addEventListener('click', () => showHelp(element('help').hidden));
     onPalette(() => { stale = true; });
     element('scrub').addEventListener('input', (event) => {
         play(false);
         seek(Number(event.target.value));
     });
     element('body').addEventListener('change', (event) => choose(Number(event.target.value), 0));
-    element('copy').addEventListener('change', (event) => choose(chosen.body, Number(event.target.value)));
+    element('copy').addEventListener('change', (event) => choose(chosen.body, Number(event.target.value) - motion.first_copy));
     for (const id of ['follow', 'trail']) element(id).addEventListener('change', () => { stale = true; });
     window.addEventListener('keydown', (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey || event.target.id === 'copy') return;
@@ -170,6 +178,7 @@ function listen() {
 }
 
 fillControls();
+showHelp(window.innerWidth > 800 && window.innerHeight > 600);
 listen();
 choose(0, 0);
 play(!window.matchMedia('(prefers-reduced-motion: reduce)').matches);

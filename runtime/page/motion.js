@@ -29,6 +29,11 @@ export function readMotion() {
         body.points = new Float32Array(bytesOf(`motion-${index}-points`));
         body.normals = new Float32Array(bytesOf(`motion-${index}-normals`));
         body.triangles = new Uint32Array(bytesOf(`motion-${index}-triangles`));
+        if (body.look) {
+            body.texture = new Float32Array(bytesOf(`motion-${index}-texture`));
+            body.look.images = body.look.images.map((type, image) =>
+                new Blob([bytesOf(`motion-${index}-image-${image}`)], { type }));
+        }
         body.poses = new Float32Array(bytesOf(`motion-${index}-poses`));
         body.sizes ??= new Array(body.copies).fill(1);
     });

@@ -40,7 +40,8 @@ export class Stage {
         this.controls.addEventListener('change', () => { this.stale = true; });
         this.controls.addEventListener('start', () => { this.handled = true; });
 
-        this.crowds = motion.bodies.map((body, index) => new Crowd(body, BODIES[index % BODIES.length], this.scene));
+        this.crowds = motion.bodies.map((body, index) =>
+            new Crowd(body, BODIES[index % BODIES.length], motion, this.scene, () => { this.stale = true; }));
         this.obstacles = motion.obstacles.map((obstacle) => this.obstacleMesh(obstacle));
         this.addGround();
         this.trail = new Line2(new LineGeometry(), new LineMaterial({ color: CHOSEN, linewidth: 2 }));

@@ -69,6 +69,29 @@ found.time = await samara('s.time()');
 found.poses = await samara('s.motion.bodies.map((b, i) => Array.from({ length: b.copies }, (_, c) => s.drawnPose(i, c)))');
 found.series = await samara('s.series().map((values) => Array.from(values))');
 found.stage = await colours('#stage');
+/** The shares of the stage's pixels in which one of red, green and blue is more than half above both others, without the trail. */
+found.hues = await page.evaluate(() => {
+    const { stage } = window.samara;
+    stage.showTrail(false);
+    stage.draw();
+    const source = document.getElementById('stage');
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [source.width, source.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(source, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    const counts = [0, 0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+        for (let k = 0; k < 3; ++k) {
+            if (data[i + k] > 1.5 * Math.max(data[i + (k + 1) % 3], data[i + (k + 2) % 3])) ++counts[k];
+        }
+    }
+    stage.showTrail(true);
+    stage.draw();
+    return counts.map((count) => (4 * count) / data.length);
+});
+// The width of each material's image, of each body.
+found.images = await samara('s.stage.crowds.map(({ meshes }) => [meshes[0].material].flat().map(({ map }) => map?.image.naturalWidth ?? 0))');
 found.plots = [];
 for (const i of [1, 2, 3]) found.plots.push(await colours(`#series canvas:nth-child(${i})`));
 found.text = await page.evaluate('document.body.innerText');
@@ -114,6 +137,36 @@ found.picked = await samara('({ ...s.chosen })');
 await page.keyboard.press('f');
 await settle();
 found.followed = await samara('s.stage.controls.target.distanceTo(s.stage.place)');
+
+// Windows of many sizes, with and without the help: which panels overlap, or leave the page.
+found.overlaps = [];
+for (const [width, height] of [[320, 480], [400, 700], [700, 400], [800, 600], [1280, 720], [1920, 1080]]) {
+    await page.setViewportSize({ width, height });
+    for (const help of [false, true]) {
+        if ((await page.isVisible('#help')) !== help) await page.click('#help-switch');
+        await settle();
+        const faulty = await page.evaluate(() => {
+            const boxes = ['#caption', '#scale', '#help', '#controls', '#series', ...document.querySelectorAll('#controls > *')]
+                .map((panel) => (typeof panel === 'string' ? document.querySelector(panel) : panel))
+                .filter((panel) => panel.offsetParent !== null)
+                .map((panel) => ({ name: panel.id || panel.textContent, inner: panel.parentElement.id, box: panel.getBoundingClientRect() }));
+            const faults = boxes.filter(({ box }) => box.left < 0 || box.right > document.documentElement.clientWidth).map(({ name }) => name);
+            if (document.getElementById('stage').clientHeight < 150) faults.push('stage');
+            boxes.forEach((a, i) => boxes.slice(0, i).forEach((b) => {
+                if (a.inner === b.name || b.inner === a.name) return;  // one contains the other
+                const wide = Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left);
+                const high = Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top);
+                if (wide > 0.5 && high > 0.5) faults.push(`${b.name}, ${a.name}`);
+            }));
+            return faults;
+        });
+        found.overlaps.push(...faulty.map((names) => `${width} x ${height}: ${names}`));
+    }
+    await page.screenshot({ path: picture.replace(/[.]png$/, `-${width}x${height}.png`) });
+}
+await page.setViewportSize({ width: 1280, height: 800 });
+await page.keyboard.press('h');
+found.help_by_key = !await page.isVisible('#help');
 
 // A narrow window, then a reader who wants the dark, a fine screen and nothing that moves by itself.
 await page.setViewportSize({ width: 600, height: 700 });

@@ -260,16 +260,16 @@ SixColumns NearFieldInverse::operator*(const SixColumns& columns) const {
     return result;
 }
 
-constexpr int most_iterations = 100;
+constexpr int most_solver_iterations = 100;
 constexpr int iterations_without_inverse = 8;
-constexpr std::size_t panels_a_piece = 64;
+constexpr std::size_t parts_a_piece = 64;
 constexpr double open_surface = 0.02;  // closure error
 
 /// Returns -integral of f_a N for the node function of every node, N = (x cross n, n).
 SixColumns normal_moments(const CurvedPanels& panels, int threads) {
     const TriangleRule rule = triangle_rule(6);  // of the polynomials' own degree
     std::vector<Matrix6d> parts(panels.panels.size());
-    parallel_for(parts.size(), panels_a_piece, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_for(parts.size(), parts_a_piece, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t j = begin; j < end; ++j) {
             parts[j].setZero();
             for (std::size_t i = 0; i < rule.points; ++i) {
@@ -331,13 +331,13 @@ BlockSolution solve(const CurvedPanels& panels, const CurvedEquations& equations
         return *near_field * residuals;
     };
     BlockSolution solution = solve_block(times_matrix, equations.right_hand_sides,
-                                         {solver_tolerance(panels), most_iterations, precondition});
+                                         {solver_tolerance(panels), most_solver_iterations, precondition});
     // The equations of an open surface need not have a solution; its closure error says so.
     if (!solution.converged && equations.closure_error < open_surface) {
         throw Error(
             fmt::format("the equations of {} curved triangles did not converge in {} steps; mesh the shape "
                         "again with 'samara mesh', with more or more regular triangles",
-                        panels.panels.size(), most_iterations));
+                        panels.panels.size(), most_solver_iterations));
     }
     return solution;
 }

@@ -1,3 +1,4 @@
+#include <iterator>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,36 @@ TEST(ChanExport, ReadsBackToThePose) {
     const auto files = write_chan(folder / "motion.chan", motion);
     ASSERT_EQ(files, std::vector<std::filesystem::path>{folder / "motion.chan"});
     expect_reads_back(files[0], motion, motion.bodies[0], 0, 0);
+}
+
+/// The columns of Houdini's layout, read as its default order XYZ says: first about x, then y, then z.
+Quaterniond houdini_turn_of(const std::vector<double>& row) {
+    return Eigen::AngleAxisd(row[5] * test::degree, Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(row[4] * test::degree, Vector3d::UnitY()) *
+           Eigen::AngleAxisd(row[3] * test::degree, Vector3d::UnitX());
+}
+
+TEST(ChanExport, HoudinisLayoutHasNoFrameAndTurnsInItsOwnOrder) {
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of(test::wander, 3.0, 240.0);
+    motion.bodies[0].center_of_mass = Vector3d(0.01, 0.02, -0.03);
+    write_chan(folder / "motion.chan", motion, 0, {}, ChanLayout::houdini);
+    std::istringstream stream(read_bytes(folder / "motion.chan"));
+    std::vector<double> before;
+    std::size_t frame = 0;
+    for (std::string line; std::getline(stream, line); ++frame) {
+        std::istringstream words(line);
+        const std::vector<double> row((std::istream_iterator<double>(words)), {});
+        ASSERT_EQ(row.size(), 6U);
+        ASSERT_LT(frame, motion.times.size());
+        const Pose& pose = motion.bodies[0].poses[frame];
+        const Vector3d place = y_up * shape_origin(pose, motion.bodies[0].center_of_mass);
+        EXPECT_LT((Vector3d(row.data()) - place).norm(), 1e-14);
+        EXPECT_LT(houdini_turn_of(row).angularDistance(y_up * pose.orientation * y_up.conjugate()), 1e-9);
+        for (std::size_t i = 3; i < 6 && !before.empty(); ++i) EXPECT_LT(std::abs(row[i] - before[i]), 30.0);
+        before = row;
+    }
+    EXPECT_EQ(frame, motion.times.size());
 }
 
 TEST(ChanExport, AnglesGoOnOverWholeTurnsAndThroughTheRightAngle) {

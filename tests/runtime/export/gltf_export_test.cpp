@@ -343,6 +343,40 @@ TEST(ShadedMesh, TakesTheMiddleNodesOfOrderTwoAndLeavesOutTrianglesWithoutArea) 
     EXPECT_EQ(shaded_mesh(surface).triangles.size(), 1U);
 }
 
+TEST(GltfExport, ColorsAreMeshesThatShareTheirBodysAccessors) {
+    const TemporaryFolder folder;
+    const CopyStyle style{.first = 1, .colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    write_glb(folder / "motion.glb", leaves(4, 0.1), 0, std::nullopt, style);
+    expect_valid(folder / "motion.glb", folder);
+    const tinygltf::Model model = read_glb(folder / "motion.glb");
+    ASSERT_EQ(model.nodes.size(), 8U);
+    EXPECT_EQ(model.nodes[0].name, "ellipsoid.001");
+    EXPECT_EQ(model.meshes.size(), 6U);
+    EXPECT_EQ(model.materials.size(), 3U) << "all bodies share them";
+    for (std::size_t copy = 0; copy < 4; ++copy) {
+        const auto& mesh = model.meshes[static_cast<std::size_t>(model.nodes[copy].mesh)];
+        const auto& first = model.meshes[static_cast<std::size_t>(model.nodes[0].mesh)];
+        EXPECT_EQ(mesh.primitives[0].attributes, first.primitives[0].attributes);
+        EXPECT_EQ(mesh.primitives[0].indices, first.primitives[0].indices);
+        const auto& material = model.materials[static_cast<std::size_t>(mesh.primitives[0].material)];
+        std::vector<double> expected = {0.0, 0.0, 0.0, 1.0};
+        expected[(copy + 1) % 3] = 1.0;
+        EXPECT_EQ(material.pbrMetallicRoughness.baseColorFactor, expected);
+    }
+}
+
+TEST(GltfExport, InstancesAreThoseOfOneFrame) {
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_glb(folder / "motion.glb", leaves(3, 0.1), 0, std::nullopt, {}, true), Error);
+    EXPECT_EQ(folder.file_count(), 0);
+    write_glb(folder / "still.glb", leaves(3, 0.0), 0, std::nullopt, {}, true);
+    const nlohmann::json report = validate(folder / "still.glb", folder / "report.json");
+    EXPECT_EQ(report["issues"]["numErrors"], 0);
+    const tinygltf::Model model = read_glb(folder / "still.glb");
+    EXPECT_EQ(model.extensionsRequired, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
+    EXPECT_EQ(model.nodes.size(), 2U);
+}
+
 TEST(GltfExport, EachCopyIsShownAtItsSize) {
     const TemporaryFolder folder;
     Motion motion = leaves(3, 0.1);

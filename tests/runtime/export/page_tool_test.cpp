@@ -9,8 +9,10 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/files/content_hash.hpp"
 #include "samara/export/page_file.hpp"
+#include "samara/formats/display_mesh_file.hpp"
 #include "samara/motion/inclination.hpp"
 #include "samara/motion/motion_file.hpp"
+#include "support/painted_mesh.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
 
@@ -106,6 +108,8 @@ TEST(Page, FitsItsWindowAndItsReader) {
     const TemporaryFolder folder;
     write_page(folder / "motion.html", ellipsoid_and_cubes(3), 0, "leaves", "");
     const json found = look_at(folder / "motion.html", 1.0, folder);
+    EXPECT_EQ(found["overlaps"], json::array());
+    EXPECT_EQ(found["help_by_key"], true);
     EXPECT_EQ(found["narrow"], json::parse(R"({"canvas": 600, "box": 600, "page": 600})"));
     EXPECT_EQ(found["dark"]["paper"], "rgb(20, 25, 31)");
     EXPECT_EQ(found["dark"]["fine"], 2);
@@ -124,6 +128,35 @@ TEST(Page, DrawsACrowdInFewCallsAndFewTriangles) {
     EXPECT_LE(found["cost"]["calls"], 12);
     EXPECT_LT(found["cost"]["triangles"], 200 * motion.bodies[1].surface.corners.size() / 4);
     EXPECT_EQ(found["faults"], json::array());
+}
+
+TEST(Page, ShowsTheLookOfABodyWithItsImages) {
+    ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
+    const TemporaryFolder folder;
+    (void)folder.file("leaf.mtl", test::painted_mtl);
+    (void)folder.file("leaf.png", test::painted_png());
+    Motion motion = test::motion_of([](double) { return Pose{}; }, 0.1);
+    motion.bodies[0].poses[0].orientation = Eigen::AngleAxisd(1.2, Vector3d::UnitX());
+    motion.bodies[0].poses.assign(motion.times.size(), motion.bodies[0].poses[0]);
+    write_page(folder / "plain.html", motion, 0, "plain", "");
+    EXPECT_LT(look_at(folder / "plain.html", 0.0, folder)["hues"][1], 1e-4);
+    motion.bodies[0].display = std::make_shared<const DisplayMesh>(
+        read_display_mesh_file(folder.file("leaf.obj", test::painted_obj)));
+    write_page(folder / "look.html", motion, 0, "look", "");
+    const json found = look_at(folder / "look.html", 0.0, folder);
+    EXPECT_EQ(found["faults"], json::array());
+    EXPECT_GT(found["hues"][1], 0.01);
+    EXPECT_EQ(found["images"], json::parse("[[1, 0]]"));
+}
+
+TEST(Page, ShowsTheColorsOfTheCopies) {
+    ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
+    const TemporaryFolder folder;
+    write_page(folder / "motion.html", ellipsoid_and_cubes(40), 0, "crowd", "",
+               {.colors = {{0.0, 0.6, 0.0}, {0.0, 0.5, 0.02}}});
+    const json found = look_at(folder / "motion.html", 1.0, folder);
+    EXPECT_GT(found["hues"][1], 0.002);
+    EXPECT_LT(found["hues"][2], 0.1 * found["hues"][1].get<double>());
 }
 
 TEST(Page, FollowsABodyThatWouldBeTooSmallToSee) {

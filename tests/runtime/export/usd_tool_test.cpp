@@ -1,5 +1,6 @@
 // .usda files in two readers that know nothing of samara: three.js and TinyUSDZ (tests/tools/read_usd.mjs).
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -13,6 +14,7 @@
 #include "samara/core/files/content_hash.hpp"
 #include "samara/export/shape_pose.hpp"
 #include "samara/export/usd_file.hpp"
+#include "samara/motion/resample.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_motion.hpp"
 
@@ -211,6 +213,29 @@ TEST(UsdExport, ACrowdHasTheVelocitiesOfItsPlacesAndTurnsInDegreesASecond) {
     }
 }
 
+TEST(UsdExport, EachCopyHasItsColorAndItsMeshNone) {
+    const TemporaryFolder folder;
+    const CopyStyle style{.first = 1, .colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const auto colors_in = [&](int copies) {
+        write_usda(folder / "motion.usda", ellipsoid_and_cubes(copies), 0, std::nullopt, style);
+        const auto text =
+            read_by_others(folder / "motion.usda", folder)["tinyusdz"]["text"].get<std::string>();
+        std::vector<std::string> colors;
+        const std::regex form(R"(primvars:displayColor = (\[[^\]]*\]))");
+        for (std::sregex_iterator found(text.begin(), text.end(), form), end; found != end; ++found) {
+            colors.push_back((*found)[1]);
+        }
+        return std::pair(colors, text);
+    };
+    const auto [few, of_few] = colors_in(2);
+    EXPECT_EQ(few, (std::vector<std::string>{"[(0, 1, 0)]", "[(0, 1, 0)]", "[(0, 0, 1)]"}));
+    const auto [many, of_many] = colors_in(most_usd_transforms + 1);
+    ASSERT_EQ(many.size(), 2U) << "of the ellipsoid and of the instancer";
+    EXPECT_EQ(many[1].substr(0, 37), "[(0, 1, 0), (0, 0, 1), (1, 0, 0), (0,");
+    EXPECT_EQ(std::count(many[1].begin(), many[1].end(), '('), most_usd_transforms + 1);
+    EXPECT_NE(of_many.find("interpolation = \"vertex\"", of_many.find(many[1])), std::string::npos);
+}
+
 TEST(UsdExport, ObstaclesStandWhereTheyAreAndMoveByTheirKeys) {
     const TemporaryFolder folder;
     Motion motion = ellipsoid_and_cubes(1);
@@ -279,6 +304,13 @@ TEST(UsdExport, EqualMotionsGiveEqualBytesAndOneFrameIsAStillScene) {
     write_usda(folder / "still.usda", test::motion_of(test::wander, 0.0));
     const json still = read_by_others(folder / "still.usda", folder);
     EXPECT_EQ(still["three"]["meshes"].size(), 1U);
+    Motion crowd = ellipsoid_and_cubes(most_usd_transforms + 1);
+    crowd = still_at(crowd, 0.5);
+    write_usda(folder / "crowd.usda", crowd);
+    const std::string text = read_by_others(folder / "crowd.usda", folder)["tinyusdz"]["text"];
+    EXPECT_EQ(text.find("timeSamples"), std::string::npos) << "a still is the same at all times";
+    EXPECT_EQ(text.find("velocities"), std::string::npos) << "readers would go on by them";
+    EXPECT_NE(text.find("point3f[] positions = [("), std::string::npos);
 }
 
 }  // namespace

@@ -224,6 +224,38 @@ TEST(FastRotation, IsTheAngularVelocityOverTheFrameRateOfTheFastestBody) {
     EXPECT_NEAR(fastest.revolutions, 0.75, 1e-12);
 }
 
+TEST(Slowed, HasThePosesLaterAndTheVelocitiesOfTheSlowerMotion) {
+    Motion motion = test::motion_of(test::wander, 1.0);
+    motion.obstacles = {{.name = "hand", .surface = {}, .keys = {{}, {{Vector3d(0, 0, 5)}, 0.5}}}};
+    const Motion slow = slowed(motion, 10.0);
+    EXPECT_DOUBLE_EQ(slow.times.back(), 10.0);
+    EXPECT_DOUBLE_EQ(slow.frame_rate, 6.0);
+    EXPECT_DOUBLE_EQ(slow.obstacles[0].keys[1].time, 5.0);
+    const Motion film = resampled(slow, 24.0);
+    ASSERT_EQ(film.frames(), 241);
+    for (int frame = 1; frame < 240; ++frame) {
+        const Pose& pose = film.pose(film.bodies[0], 0, frame, 0);
+        const Pose exact = test::wander(frame / 240.0);
+        EXPECT_LT((pose.position - exact.position).norm(), 1e-6);
+        EXPECT_LT(pose.orientation.angularDistance(exact.orientation), 1e-5);
+        const Vector3d by_places = 12.0 * (film.pose(film.bodies[0], 0, frame + 1, 0).position -
+                                           film.pose(film.bodies[0], 0, frame - 1, 0).position);
+        EXPECT_LT((pose.velocity - by_places).norm(), 1e-3 * by_places.norm());
+        EXPECT_LT((10.0 * pose.angular_velocity - exact.angular_velocity).norm(), 2e-3);
+    }
+}
+
+TEST(StillAt, IsOneFrameBetweenTheMotionsEnds) {
+    const Motion motion = test::motion_of(test::wander, 1.0);
+    const Motion still = still_at(motion, 0.505);
+    ASSERT_EQ(still.times, std::vector<double>{0.505});
+    EXPECT_LT((still.bodies[0].poses[0].position - test::wander(0.505).position).norm(), 1e-6);
+    EXPECT_EQ(still_at(motion, 1.0).bodies[0].poses[0].position, motion.bodies[0].poses.back().position);
+    EXPECT_EQ(still_at(still, 0.505).times, still.times);
+    EXPECT_THAT(test::error_of([&] { return still_at(motion, 1.01); }), HasSubstr("from 0 to 1 s"));
+    EXPECT_THROW(still_at(motion, -0.1), Error);
+}
+
 }  // namespace
 
 }  // namespace samara
