@@ -1,6 +1,7 @@
 // The program samara-bake: from a shape or a scene to body files with tables.
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -29,6 +30,9 @@ struct BakeOptions {
     std::string input;
     std::string output;
     std::string fluid = "water";
+    double fluid_density = 0.0;
+    double fluid_viscosity = 0.0;
+    std::string reynolds_numbers;
     double density = 1200.0;
     double other_density = 0.0;
     ShapeReading reading;
@@ -98,6 +102,52 @@ Body baked_body(const std::string& file) {
         "{}: has no tables whose k and epsilon could be replaced; bake it without --turbulence-only", file));
 }
 
+/// Returns the fluid around a shape: a preset, or that of a density and a viscosity, which go together.
+Fluid fluid_of(const BakeOptions& options, const Arguments& arguments) {
+    const bool density = arguments.given("--fluid-density");
+    const bool viscosity = arguments.given("--fluid-viscosity");
+    if (!density && !viscosity) return *fluid_preset(options.fluid);
+    if (arguments.given("--fluid")) {
+        throw Error(fmt::format("{}: --fluid excludes --fluid-density and --fluid-viscosity; leave it out",
+                                options.input));
+    }
+    if (!density || !viscosity) {
+        throw Error(fmt::format("{}: {} is not enough; give --fluid-density and --fluid-viscosity",
+                                options.input, density ? "--fluid-density" : "--fluid-viscosity"));
+    }
+    return Fluid{.density = options.fluid_density, .viscosity = options.fluid_viscosity};
+}
+
+/// Returns the Reynolds numbers of --reynolds-number, to three digits, the main one first; none without it.
+std::vector<double> reynolds_numbers_of(const BakeOptions& options, const Arguments& arguments) {
+    if (!arguments.given("--reynolds-number")) return {};
+    const auto rejected = [&](const std::string& why) {
+        return Error(
+            fmt::format("{}: --reynolds-number '{}' {}", options.input, options.reynolds_numbers, why));
+    };
+    if (arguments.given("--fluid-viscosity")) {
+        throw rejected("sets the viscosity; leave --fluid-density and --fluid-viscosity out");
+    }
+    std::vector<double> numbers;
+    for (const std::string& word : comma_separated(options.reynolds_numbers)) {
+        double number = 0.0;
+        const char* const end = word.data() + word.size();
+        const auto [rest, failure] = std::from_chars(word.data(), end, number);
+        if (failure != std::errc() || rest != end || !(number >= 0.01 && number <= 1e7)) {
+            throw rejected("must be numbers from 0.01 to 1e7, by commas, such as 5000,500,50");
+        }
+        numbers.push_back(rounded_reynolds_number(number));
+        if (std::ranges::count(numbers, numbers.back()) > 1) {
+            throw rejected("names a number twice, to three digits; give each once");
+        }
+    }
+    if (numbers.empty()) throw rejected("names none; give numbers by commas, such as 5000,500,50");
+    if (options.probes > 0 && numbers.size() > 1) {
+        throw rejected("must be one number with --probes, which solves between it and a tenth of it");
+    }
+    return numbers;
+}
+
 BakeRequest request_for_shape(const BakeOptions& options, const Arguments& arguments) {
     if (options.probes > 0 && fs::path(options.output).extension() != ".csv") {
         throw Error(
@@ -110,7 +160,7 @@ BakeRequest request_for_shape(const BakeOptions& options, const Arguments& argum
     request.shape = options.input;
     request.reading = options.reading;
     request.output = options.output;
-    request.fluid = *fluid_preset(options.fluid);
+    request.fluid = fluid_of(options, arguments);
     // A body file may have its own mass.
     if (arguments.given("--density") || !is_body_file_name(options.input) ||
         !read_body_file(options.input).mass) {
@@ -118,6 +168,13 @@ BakeRequest request_for_shape(const BakeOptions& options, const Arguments& argum
     }
     request.other_density = options.other_density;
     request.quality = quality_of(options);
+    if (const std::vector<double> numbers = reynolds_numbers_of(options, arguments); !numbers.empty()) {
+        request.reynolds_number = numbers.front();
+        request.quality.further_reynolds_numbers.clear();
+        for (std::size_t i = 1; i < numbers.size(); ++i) {
+            request.quality.further_reynolds_numbers.push_back(numbers[i] / numbers.front());
+        }
+    }
     if (options.turbulence_only) {
         request.baked = baked_body(options.input);
         const std::vector<std::string> names = bake_quality_names();
@@ -138,7 +195,8 @@ void require_for_turbulence_only(const BakeOptions& options, const Arguments& ar
             fmt::format("{}: --turbulence-only needs a baked body file, NAME.body.h5; bake the shape whole",
                         options.input));
     }
-    for (const char* option : {"--fluid", "--density", "--density-to", "--loads", "--falls", "--fall-step"}) {
+    for (const char* option : {"--fluid", "--fluid-density", "--fluid-viscosity", "--reynolds-number",
+                               "--density", "--density-to", "--loads", "--falls", "--fall-step"}) {
         if (!arguments.given(option)) continue;
         throw Error(fmt::format(
             "{}: with --turbulence-only loads and Reynolds numbers stay those of the body file; leave {} out",
@@ -167,10 +225,11 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
         require_for_turbulence_only(options, arguments);
         return {request_for_shape(options, arguments)};
     }
-    for (const char* option : {"--fluid", "--density", "--density-to", "--scale", "--turbulence-only"}) {
+    for (const char* option : {"--fluid", "--fluid-density", "--fluid-viscosity", "--reynolds-number",
+                               "--density", "--density-to", "--scale", "--turbulence-only"}) {
         if (arguments.given(option)) {
             throw Error(fmt::format(
-                "{}: a scene defines fluid, density and scale of its bodies, which are baked whole; "
+                "{}: a scene defines fluid, speeds, density and scale of its bodies, which are baked whole; "
                 "leave {} out",
                 options.input, option));
         }
@@ -222,6 +281,7 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
         results.push_back(one);
     }
     notes.print();
+    if (options.dry_run && !quiet && results.size() > 1) print_total(results, options.jobs);
     if (is_scene(options.input)) return {{"bodies", results}};
     return results.front();
 }
@@ -236,6 +296,15 @@ int run(int argc, const char* const* argv) {
     arguments.required_option("-o,--output", options.output,
                               "NAME.body.h5; for a scene, the folder for its body files");
     arguments.choice("--fluid", options.fluid, {"water", "air"}, "fluid around the shape, at 20 C");
+    arguments.option("--fluid-density", options.fluid_density,
+                     "density of the fluid around the shape (kg/m^3), with --fluid-viscosity", 1e-6, 1e6);
+    arguments.option(
+        "--fluid-viscosity", options.fluid_viscosity,
+        "dynamic viscosity of that fluid (Pa s): 1.41 and a density of 1261 are glycerol at 20 C", 1e-9, 1e6);
+    arguments.option(
+        "--reynolds-number", options.reynolds_numbers,
+        "R[,R...]: Reynolds numbers U L/nu of the tables, in place of that of the terminal speed "
+        "and those of the quality; the first is solved in all directions, the others in few");
     arguments.option("--density", options.density,
                      "density of the body (kg/m^3); by default that of the body file", 1e-3, 1e6);
     arguments.option("--density-to", options.other_density,

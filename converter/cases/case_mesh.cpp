@@ -80,6 +80,7 @@ WallSpacing spacing_of(std::vector<SpacedArea> parts, bool wall_functions) {
     for (const SpacedArea& part : parts) {
         if (passed < 0.5 * all) spacing.median = part.y_plus;
         passed += part.area;
+        spacing.mean += part.y_plus * part.area / all;
         if (part.y_plus < 30.0) spacing.below_30 += part.area / all;
         if (part.y_plus > 1.0) spacing.above_1 += part.area / all;
     }

@@ -16,6 +16,7 @@ struct WallSpacing {
     bool wall_functions =
         false;  ///< whether wall functions of k are used; else the cells are to resolve the boundary layer
     double least = 0.0;
+    double mean = 0.0;
     double median = 0.0;
     double most = 0.0;
     double below_30 = 0.0;  ///< share of the area: below the logarithmic layer, in which wall functions hold

@@ -12,6 +12,7 @@
 #include "converter/cases/case_mesh.hpp"
 #include "converter/cases/case_reduction.hpp"
 #include "converter/falls/fall_identification.hpp"
+#include "converter/report/flow_part.hpp"
 #include "samara/analysis/comparison/comparison.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/numbers.hpp"
@@ -42,14 +43,7 @@ constexpr double poor_fall = 0.3;
 constexpr double same_frequency = 0.2;
 constexpr double same_amplitude = 0.3;
 
-/// A mesh that cases of the plan were solved on.
-struct CaseMesh {
-    std::string name;
-    Json record;  // mesh.json
-    PolyMesh mesh;
-};
-
-double cells_of(const CaseMesh& mesh) {
+double cells_of(const SolvedMesh& mesh) {
     return static_cast<double>(mesh.mesh.cell_count());
 }
 
@@ -88,10 +82,11 @@ class Folder {
     void add_falls(const ProgressCall& progress);
 
   private:
-    std::vector<CaseMesh> meshes(const ProgressCall& progress);
-    [[nodiscard]] Json meshes_picture(const std::vector<CaseMesh>& meshes) const;
-    Rows spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCall& progress);
-    [[nodiscard]] Json drawn(const CaseMesh& mesh, std::size_t count) const;
+    std::vector<SolvedMesh> meshes(const ProgressCall& progress);
+    [[nodiscard]] Json meshes_picture(const std::vector<SolvedMesh>& meshes) const;
+    /// Returns a row for each solved case, and gives the meshes their spacings.
+    Rows spacing_rows(std::vector<SolvedMesh>& meshes, const ProgressCall& progress);
+    [[nodiscard]] Json drawn(const SolvedMesh& mesh, std::size_t count) const;
     /// Calls `work`; an Error is listed in the report as a missing part.
     template <typename Work>
     void or_missing(const Work& work) {
@@ -111,10 +106,10 @@ class Folder {
     CasesReport& report_;
 };
 
-std::vector<CaseMesh> Folder::meshes(const ProgressCall& progress) {
+std::vector<SolvedMesh> Folder::meshes(const ProgressCall& progress) {
     std::set<std::string> names;
     for (const PlannedCase& one : plan_.cases) names.insert(one.mesh);
-    std::vector<CaseMesh> meshes;
+    std::vector<SolvedMesh> meshes;
     std::size_t done = 0;
     for (const std::string& name : names) {
         or_missing([&] {
@@ -134,7 +129,7 @@ Json as_json(const std::vector<MeshSection::Piece>& pieces) {
     return rows;
 }
 
-Json Folder::drawn(const CaseMesh& mesh, std::size_t count) const {
+Json Folder::drawn(const SolvedMesh& mesh, std::size_t count) const {
     const Matrix3d to_case = plan_.case_axes.transpose();
     const Matrix3d principal = principal_axes(body_.moments);
     const Vector3d right = to_case * principal.col(2);
@@ -158,7 +153,7 @@ Json Folder::drawn(const CaseMesh& mesh, std::size_t count) const {
             {"half_height", high_over_wide * half_width}};
 }
 
-Json Folder::meshes_picture(const std::vector<CaseMesh>& meshes) const {
+Json Folder::meshes_picture(const std::vector<SolvedMesh>& meshes) const {
     const std::size_t count = std::min(meshes.size(), most_meshes);
     Json picture = {{"picture", "meshes"}, {"name", body_.name}};
     for (std::size_t i = meshes.size() - count; i < meshes.size(); ++i) {
@@ -167,13 +162,13 @@ Json Folder::meshes_picture(const std::vector<CaseMesh>& meshes) const {
     return picture;
 }
 
-Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCall& progress) {
+Rows Folder::spacing_rows(std::vector<SolvedMesh>& meshes, const ProgressCall& progress) {
     Rows rows;
     std::optional<WallSpacing> worst;
     std::size_t done = 0;
     for (const PlannedCase& one : plan_.cases) {
         progress(static_cast<double>(++done) / static_cast<double>(plan_.cases.size()));
-        const auto mesh = std::ranges::find(meshes, one.mesh, &CaseMesh::name);
+        const auto mesh = std::ranges::find(meshes, one.mesh, &SolvedMesh::name);
         if (mesh == meshes.end() || !solved(one.name) || plan_.solved_by_user) continue;
         or_missing([&] {
             const WallSpacing spacing = wall_spacing(path_ / one.name, mesh->mesh);
@@ -182,6 +177,8 @@ Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCal
                             fmt::format("{:.2g}", spacing.most),
                             spacing.wall_functions ? per_cent(spacing.below_30) + " below 30"
                                                    : per_cent(spacing.above_1) + " above 1"});
+            if (one.purpose == CasePurpose::start) return;
+            mesh->spacings.push_back(spacing);
             if (one.purpose != CasePurpose::table) return;
             const auto badness = [](const WallSpacing& given) {
                 return given.wall_functions ? given.below_30 : given.above_1;
@@ -204,10 +201,10 @@ Rows Folder::spacing_rows(const std::vector<CaseMesh>& meshes, const ProgressCal
 }
 
 void Folder::add_meshes(const ProgressCall& progress) {
-    const std::vector<CaseMesh> all = meshes([&](double share) { progress(0.3 * share); });
+    std::vector<SolvedMesh> all = meshes([&](double share) { progress(0.3 * share); });
     if (all.empty()) return;
     Rows rows;
-    for (const CaseMesh& mesh : all) {
+    for (const SolvedMesh& mesh : all) {
         rows.push_back({mesh.name, fmt::format("{}", mesh.mesh.cell_count()), text_of(mesh.record, "verdict"),
                         text_of(mesh.record, "remedy"), number_of(mesh.record, "body_area_over_true_area"),
                         number_of(mesh.record, "max_non_orthogonality")});
@@ -219,6 +216,7 @@ void Folder::add_meshes(const ProgressCall& progress) {
                                  rows)}};
     progress(0.5);
     const Rows spacing = spacing_rows(all, [&](double share) { progress(0.5 + 0.5 * share); });
+    report_.parts.push_back(part_of_flow(path_, plan_, body_, all));
     if (!spacing.empty()) {
         part.blocks.push_back(folded_block(
             fmt::format("y+ of the cells along the body, in {} cases", spacing.size()),

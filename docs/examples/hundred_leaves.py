@@ -1,6 +1,6 @@
 """The tutorial docs/tutorials/blender.md by script: a hundred leaves fall, as keys, and one frame is rendered.
 
-  blender -b --factory-startup --python hundred_leaves.py -- ADD-ON.zip leaf.body.h5 PICTURE [LEAVES.blend]
+  blender -b --factory-startup --python hundred_leaves.py -- ADD-ON.zip PICTURE [LEAVES.blend]
 """
 
 import math
@@ -11,7 +11,7 @@ import sys
 import bpy
 from mathutils import Vector
 
-zip_file, body_file, picture, *blend_file = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
+zip_file, picture, *blend_file = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
 try:
     if bpy.ops.preferences.addon_install(filepath=zip_file) != {"FINISHED"}:
         raise RuntimeError("Blender cannot install it")
@@ -24,15 +24,14 @@ scene = bpy.context.scene
 for name in ("Cube", "Light", "Camera"):
     bpy.data.objects.remove(bpy.data.objects[name])
 
-# The leaves: Add > samara Bodies; then Mass: Density, of dry ones: 200 kg/m^3 are 60 g/m^2.
+# The leaves, which bring air with them: Add > samara Bodies > Leaf; then Mass: Density, of dry ones: 200 kg/m^3 are 60 g/m^2.
 scene.cursor.location = (0.0, 0.0, 1.6)
-bpy.ops.samara.add_bodies(filepath=body_file, count=100, spread=(0.6, 0.4, 0.5), turn=True, density=200.0)
+bpy.ops.samara.add_bodies(ready="leaf", count=100, spread=(0.6, 0.4, 0.5), turn=True, density=200.0)
 leaves = list(bpy.context.selected_objects)
 for leaf in leaves:
     leaf.samara.mass_source = "DENSITY"
 
-# The air and the floor: Physics > samara > Scene.
-scene.samara.fluid = "AIR"
+# The floor: Physics > samara > Scene.
 scene.samara.use_ground = True
 scene.samara.ground = 0.0
 scene.frame_end = 72
@@ -62,8 +61,6 @@ autumn = [
     for colour in ((0.55, 0.05, 0.02), (0.72, 0.16, 0.02), (0.82, 0.33, 0.02), (0.85, 0.55, 0.06), (0.40, 0.36, 0.06))
 ]
 leaves[0].data.materials.append(None)  # a slot; the leaves share one mesh
-for face in leaves[0].data.polygons:
-    face.use_smooth = True
 draw = random.Random(3)
 for leaf in leaves:
     leaf.material_slots[0].link = "OBJECT"

@@ -1,8 +1,7 @@
-"""The pictures docs/pictures/blender-window.png and blender-panel.png: leaves on a roof, and the add-on's panel.
+"""The pictures of the add-on in docs/pictures: the window with leaves on a roof, and each of its panels.
 
-  samara bodies leaf -o leaf.body.h5
-  xvfb-run -a -s "-screen 0 1360x1000x24" blender --factory-startup --window-geometry 0 0 1360 1000 \\
-    --python docs/examples/panel_pictures.py -- ADD-ON.zip leaf.body.h5 docs/scenes/roof.obj WINDOW.png PANEL.png
+  xvfb-run -a -s "-screen 0 1360x1000x24" blender --factory-startup --enable-event-simulate \\
+    --window-geometry 0 0 1360 1000 --python docs/examples/panel_pictures.py -- ADD-ON.zip docs/scenes/roof.obj docs/pictures
 """
 
 import os
@@ -11,9 +10,10 @@ import sys
 import traceback
 
 import bpy
+import numpy
 from mathutils import Vector
 
-zip_file, body_file, roof_file, window_picture, panel_picture = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
+zip_file, roof_file, folder, *_ = map(os.path.abspath, sys.argv[sys.argv.index("--") + 1 :])
 try:
     if bpy.ops.preferences.addon_install(filepath=zip_file) != {"FINISHED"}:
         raise RuntimeError("Blender cannot install it")
@@ -35,12 +35,11 @@ def build():
     roof = bpy.context.selected_objects[0]
     roof.samara.is_obstacle, roof.samara.friction, roof.color = True, 0.9, (0.20, 0.075, 0.045, 1.0)
     surroundings = scene.samara
-    surroundings.fluid, surroundings.use_ground, surroundings.bodies_meet = "AIR", True, True
+    surroundings.use_ground, surroundings.bodies_meet = True, True
     surroundings.use_wind, surroundings.wind_speed, surroundings.gust_speed = True, 0.6, 0.3
-    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(os.path.dirname(body_file), "leaves.blend"))
     scene.cursor.location = (-0.55, -0.45, 2.0)
     bpy.ops.samara.add_bodies(
-        filepath="//" + os.path.basename(body_file), count=60, spread=(0.8, 0.35, 0.3), turn=True, smallest_size=1.0, largest_size=1.5, release=25.0
+        ready="leaf", count=60, spread=(0.8, 0.35, 0.3), turn=True, smallest_size=1.0, largest_size=1.5, release=25.0
     )
     draw = random.Random(2)
     for o in bpy.context.selected_objects:
@@ -53,9 +52,38 @@ def build():
     scene.cursor.location = (0.0, 0.0, -5.0)
 
 
+def save(name, area, rectangle=None):
+    """Saves the area, or a rectangle (x, y, width, height) of the window, without the empty rows at its bottom."""
+    file = os.path.join(folder, name)
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0], area=area):
+        bpy.ops.screen.screenshot_area(filepath=file)
+    image = bpy.data.images.load(file)
+    pixels = numpy.array(image.pixels[:], numpy.float32).reshape(image.size[1], image.size[0], 4)  # from the bottom row
+    bpy.data.images.remove(image)
+    if rectangle:
+        x, y, width, height = rectangle
+        pixels = pixels[y - area.y : y - area.y + height, x - area.x : x - area.x + width]
+    inside = pixels[8:, 60:-24, :3]  # without borders, tabs and scroll bar
+    pixels = pixels[numpy.flatnonzero(numpy.ptp(inside, axis=1).max(axis=1) > 0.02)[0] :]
+    cut = bpy.data.images.new(name, pixels.shape[1], pixels.shape[0])
+    cut.pixels = pixels.ravel()
+    cut.filepath_raw, cut.file_format = file, "PNG"
+    cut.save()
+
+
 def steps():
     """What is done in the window, with the seconds to let it draw."""
+    from samara_addon import panel
+
     window = bpy.context.window_manager.windows[0]
+    for other in bpy.types.Panel.__subclasses__():  # those of the tab Physics
+        if getattr(other, "bl_context", "") == "physics" and other not in panel.CLASSES:
+            bpy.utils.unregister_class(other)
+    panel.SAMARA_PT_bake.bl_options = set()  # open
+    for c in reversed(panel.CLASSES):
+        bpy.utils.unregister_class(c)
+    for c in panel.CLASSES:
+        bpy.utils.register_class(c)
     areas = {a.type: a for a in window.screen.areas}
     for name in ("OUTLINER", "PROPERTIES"):  # a taller and wider one takes their place
         with bpy.context.temp_override(window=window, area=areas[name]):
@@ -77,19 +105,33 @@ def steps():
     space.region_3d.view_location, space.region_3d.view_distance = (0.0, -0.3, 0.88), 2.7
     space.region_3d.view_rotation = Vector((-0.5, -1.0, 0.5)).to_track_quat("Z", "Y")
     yield 5.0
-    bpy.ops.screen.screenshot(filepath=window_picture)
+    bpy.ops.screen.screenshot(filepath=os.path.join(folder, "blender-window.png"))
 
-    # The panel alone, scrolled down, in the height of the window.
+    # The box of Add > samara Bodies.
+    region = next(r for r in view.regions if r.type == "WINDOW")
+    with bpy.context.temp_override(window=window, area=view, region=region):
+        bpy.ops.samara.add_bodies("INVOKE_DEFAULT", True, ready="leaf", count=100, spread=(0.6, 0.4, 0.5), turn=True,
+                                  first_color=(0.8, 0.06, 0.02, 1.0), second_color=(1.0, 0.62, 0.06, 1.0))
+    yield 3.0
+    box = next(r for r in view.regions if r.type == "HUD")
+    for event in ("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE"):  # opens it
+        window.event_simulate(type=event[0], value=event[1], x=box.x + 40, y=box.y + box.height - 12)
+        yield 0.3
+    yield 3.0
+    save("blender-add.png", view, (box.x, box.y, box.width, box.height))
+
+    # The panels, in the height of the window.
     with bpy.context.temp_override(window=window, area=next(a for a in window.screen.areas if a.type == "DOPESHEET_EDITOR")):
         bpy.ops.screen.area_close()
-    bpy.context.preferences.view.ui_scale = 0.95
+    draw_scene = panel.SAMARA_PT_surroundings.draw
+    panel.SAMARA_PT_surroundings.draw = lambda self, context: None
     yield 3.0
-    properties = next(a for a in window.screen.areas if a.type == "PROPERTIES")
-    with bpy.context.temp_override(window=window, area=properties, region=properties.regions[-1]):
-        bpy.ops.view2d.scroll_down(page=True)
+    save("blender-panel.png", properties)
+    panel.SAMARA_PT_surroundings.draw, panel.SAMARA_PT_body.draw = draw_scene, panel.SAMARA_PT_surroundings.draw
+    panel.SAMARA_PT_bake.poll = classmethod(lambda cls, context: False)
+    properties.tag_redraw()
     yield 3.0
-    with bpy.context.temp_override(window=window, area=properties):
-        bpy.ops.screen.screenshot_area(filepath=panel_picture)
+    save("blender-scene.png", properties)
 
 
 def go_on(going=steps()):

@@ -85,18 +85,22 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     preparation.body = body;
     if (!request.tables) return preparation;
     const std::vector<MassSpecification> masses = masses_of(request);
-    double reynolds_number = 0.0;
+    double reynolds_number = request.reynolds_number.value_or(0.0);
+    Fluid fluid = request.fluid;
     if (request.baked) {
         const LoadTables& tables = *request.baked->tables;
         reynolds_number = main_reynolds_number(tables, case_records(tables));
-    } else {
+    } else if (!request.reynolds_number || plans_falls(request)) {
         for (const MassSpecification& mass : masses) {
-            const double speed = bake_speed(body, request.fluid, mass_of(mass, body), request.gravity);
+            const double speed = bake_speed(body, fluid, mass_of(mass, body), request.gravity);
             preparation.terminal_speed = std::max(preparation.terminal_speed, speed);
         }
-        reynolds_number =
-            rounded_reynolds_number(preparation.terminal_speed * reference_length(body.moments.surface_area) /
-                                    request.fluid.kinematic_viscosity());
+        const double circulation = preparation.terminal_speed * reference_length(body.moments.surface_area);
+        if (request.reynolds_number) {
+            fluid.viscosity = fluid.density * circulation / reynolds_number;
+        } else {
+            reynolds_number = rounded_reynolds_number(circulation / fluid.kinematic_viscosity());
+        }
     }
     if (request.goal) {
         preparation.simulation =
@@ -111,7 +115,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
     }
     preparation.plan->ranks = request.ranks;
     if (plans_falls(request)) {
-        add_falls(body, request.fluid, masses, request.gravity, *preparation.plan);
+        add_falls(body, fluid, masses, request.gravity, *preparation.plan);
     }
     if (preparation.scene_plan) preparation.scene_plan->cases = *preparation.plan;
     return preparation;

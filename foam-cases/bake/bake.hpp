@@ -30,6 +30,9 @@ struct BakeRequest {
     /// the faster body.
     double other_density = 0.0;
     double gravity = 9.81;  ///< m/s^2
+    /// The tables' main Reynolds number. The falls are then in a fluid of the same density in which the
+    /// body's terminal speed has it. None: that of the terminal speed in `fluid`.
+    std::optional<double> reynolds_number = {};
     BakeQuality quality;
     bool tables = true;  ///< false: only mesh and Kirchhoff tensor
     Inflow inflow;

@@ -141,14 +141,17 @@ bool is_as_flown(const BakeRequest& request, const BakePlan& plan) {
            quality.loads_closure == usual_loads_closure(quality.name);
 }
 
+std::string cost_in_words(std::size_t cases, double cpu_seconds, int jobs, double bytes) {
+    const double at_once = std::min<double>(jobs, static_cast<double>(std::max<std::size_t>(1, cases)));
+    return fmt::format(
+        "{} cases and falls, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", cases,
+        cpu_seconds, cpu_seconds / at_once, jobs, 1e-6 * bytes);
+}
+
 /// Returns what the plan costs and, where that was measured, what it brings, in one line.
 std::string cost_of(const BakeRequest& request, const BakePlan& plan, int jobs) {
-    const std::size_t all = plan.cases.size() + plan.falls.size();
-    const double at_once = std::min<double>(jobs, static_cast<double>(all));
-    std::string text = fmt::format(
-        "{} cases and falls, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", all,
-        plan.cpu_seconds, plan.cpu_seconds / at_once, jobs,
-        1e-6 * bytes_to_solve(case_folder_of(request), plan));
+    std::string text = cost_in_words(plan.cases.size() + plan.falls.size(), plan.cpu_seconds, jobs,
+                                     bytes_to_solve(case_folder_of(request), plan));
     if (request.goal) text += "; further rounds may follow";
     if (const auto errors = errors_on_held_out_falls(plan.quality.name);
         errors && is_as_flown(request, plan)) {
@@ -175,9 +178,10 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
         return;
     }
     const BakePlan& plan = *preparation.plan;
-    const std::string speed =
-        request.baked ? "that of the tables"
-                      : fmt::format("terminal speed about {:.3g} m/s", preparation.terminal_speed);
+    const std::string speed = request.baked             ? "that of the tables"
+                              : request.reynolds_number ? "as asked for"
+                                                        : fmt::format("terminal speed about {:.3g} m/s",
+                                                                      preparation.terminal_speed);
     print_result("{}: {} cases at Reynolds number {:.0f} ({}, L = {:.4g} m)\n", request.output.string(),
                  plan.cases.size(), plan.main_reynolds_number, speed, plan.reference_length);
     for (const BakeCase& entry : plan.cases) {
@@ -190,6 +194,19 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
     }
     print_result("meshes of about {:.0f} cells\n{}\n", fmt::join(plan.cells, ", "),
                  cost_of(request, plan, jobs));
+}
+
+void print_total(const nlohmann::json& bodies, int jobs) {
+    std::size_t cases = 0;
+    double seconds = 0.0;
+    double bytes = 0.0;
+    for (const nlohmann::json& body : bodies) {
+        if (body["cases"].empty()) continue;
+        cases += body["cases"].size() + body["falls"].size();
+        seconds += body["estimated_cpu_seconds"].get<double>();
+        bytes += body["estimated_bytes"].get<double>();
+    }
+    print_result("all {} bodies: {}\n", bodies.size(), cost_in_words(cases, seconds, jobs, bytes));
 }
 
 void print_result(const BakeRequest& request, const BakeResult& result) {
@@ -251,7 +268,10 @@ void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePrepa
             "is so dense that it is still speeding up at the end of a fall: no falls are solved, and its "
             "dynamic coefficients are the defaults");
     }
-    if (!preparation.plan || preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
+    if (!preparation.plan) return;
+    const double highest = std::ranges::max(preparation.plan->reynolds_numbers());
+    notes.add("drag crisis", name, highest, drag_crisis_warning(highest));
+    if (preparation.plan->main_reynolds_number >= laminar_reynolds_number) return;
     notes.add(
         "laminar", name, preparation.plan->main_reynolds_number,
         fmt::format(

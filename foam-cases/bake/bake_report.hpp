@@ -15,11 +15,15 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);
 void print_result(const BakeRequest& request, const BakeResult& result);
 
+/// Prints in one line on standard output what the bodies of a scene cost together; `bodies`: bake_as_json()
+/// of each, with --dry-run.
+void print_total(const nlohmann::json& bodies, int jobs);
+
 /// Prints in one line on standard error what will be solved, what it costs, and the errors to expect.
 void note_cost(const BakeRequest& request, const BakePreparation& preparation, int jobs);
 
-/// Adds notes where a quantity seems to be in another unit, and where the Reynolds number is below
-/// laminar_reynolds_number.
+/// Adds notes where a quantity seems to be in another unit, and where a Reynolds number is below
+/// laminar_reynolds_number or in the drag crisis.
 void note_warnings(BodyNotes& notes, const BakeRequest& request, const BakePreparation& preparation);
 
 /// Prints the cases that were left out in one line on standard error.

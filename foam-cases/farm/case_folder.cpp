@@ -191,6 +191,8 @@ InputFolders input_folders(const Body& body, const BakePlan& plan, const fs::pat
     for (const BakeCase& entry : plan.cases) {
         CaseFiles files = body_flow;
         files["parameters"] = case_parameters(files.at("parameters"), plan, entry);
+        std::string& ranks = files["system/decomposeParDict"];
+        ranks = decomposition(ranks, plan.ranks);
         const std::string start = entry.start_from.empty() ? "" : folders.at(entry.start_from).hash;
         const std::string hash = content_hash(folders.at(entry.mesh).hash + start + hash_of(files));
         folders[entry.name] = {FolderType::flow, std::move(files), entry.mesh, hash};

@@ -66,6 +66,10 @@ void require_known_files(const std::filesystem::path& cases, const InputFolders&
 /// further entries stay. Throws Error where the template lacks an entry.
 std::string case_parameters(const std::string& template_text, const BakePlan& plan, const BakeCase& entry);
 
+/// Returns the file system/decomposeParDict of a case that so many MPI processes share, by a template as in
+/// case_parameters().
+std::string decomposition(const std::string& template_text, int ranks);
+
 /// Returns the file `parameters` of a fall's case, by a template as in case_parameters().
 std::string fall_parameters(const std::string& template_text, const BakePlan& plan, const FreeFall& fall);
 

@@ -46,7 +46,8 @@ ValueRange find_value(const std::string& text, const std::string& name) {
         if (next == std::string::npos) break;
         line = next + 1;
     }
-    throw Error(fmt::format("the case template's file parameters has no entry '{}'; restore it", name));
+    throw Error(fmt::format(
+        "the case template has no entry '{}' in its parameters or decomposeParDict; restore it", name));
 }
 
 // Returns the momentum-thickness Reynolds number at which a boundary layer becomes turbulent by the
@@ -213,7 +214,8 @@ std::array<int, 3> ranks_along_axes(int ranks) {
 
 Entries process_entries(int ranks) {
     const auto [x, y, z] = ranks_along_axes(ranks);
-    return {{"ranks", fmt::format("{}", ranks)}, {"ranksAlong", fmt::format("({} {} {})", x, y, z)}};
+    return {{"numberOfSubdomains", fmt::format("{}", ranks)},
+            {"ranksAlong", fmt::format("({} {} {})", x, y, z)}};
 }
 
 void replace_values(std::string& text, const Entries& entries) {
@@ -234,7 +236,12 @@ std::string case_parameters(const std::string& template_text, const BakePlan& pl
     replace_values(text, closure_entries(entry.closure, resolves_boundary_layer));
     replace_values(text, turbulence_entries(plan, entry));
     replace_values(text, model_entries(plan.quality, entry));
-    replace_values(text, process_entries(plan.ranks));
+    return text;
+}
+
+std::string decomposition(const std::string& template_text, int ranks) {
+    std::string text = template_text;
+    replace_values(text, process_entries(ranks));
     return text;
 }
 

@@ -171,6 +171,9 @@ void print_tables(const LoadTables& tables) {
     std::string reynolds_numbers;
     for (const double number : tables.reynolds_numbers) reynolds_numbers += fmt::format("{:.6g} ", number);
     print_row("Reynolds numbers", "{}", reynolds_numbers);
+    if (const std::string warning = drag_crisis_warning(tables.reynolds_numbers.back()); !warning.empty()) {
+        print_row("warning", "{}", warning);
+    }
     print_row("directions", "{} (octahedron cut into {})", direction_count(tables), tables.subdivisions);
     for (const TableRange& range : ranges_of(tables)) {
         print_row(range.name, "up to {:.3g} ({}), standard error {:.2g} to {:.2g}", range.largest,

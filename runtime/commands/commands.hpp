@@ -16,7 +16,7 @@ int recommend_command(int argc, const char* const* argv);
 /// Runs samara simulate: a scene's motion.
 int simulate_command(int argc, const char* const* argv);
 
-/// Runs samara search: the seeds with which a body reaches a target.
+/// Runs samara search: the seeds and launches with which a body reaches its goals.
 int search_command(int argc, const char* const* argv);
 
 /// Runs samara bodies: the ready-baked bodies.

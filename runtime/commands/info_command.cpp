@@ -1,4 +1,5 @@
 // samara info: what a file holds, its units and its provenance.
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/body/load_tables.hpp"
 #include "samara/core/files/hdf5_reader.hpp"
+#include "samara/core/surface/surface.hpp"
 #include "samara/core/wind/wind_file.hpp"
 #include "samara/formats/json_text.hpp"
 #include "samara/motion/motion_file.hpp"
@@ -37,15 +39,27 @@ void print_vector(const char* name, const Vector3d& value, const Vector3d& error
                  value.z(), error.x(), error.y(), error.z());
 }
 
+/// Returns the drag coefficient on the area (m^2) that the body projects along its motion, as the literature
+/// has it; `drag`: the tables', on A = pi L^2/4.
+double on_projected_area(double drag, const LoadTables& tables, double projected) {
+    const double length = tables.reference_length;
+    return drag * 0.25 * std::numbers::pi * length * length / projected;
+}
+
 /// Prints the tables' entry with its standard errors, on standard output, for a body that moves along the
 /// unit direction (shape axes) at the Reynolds number.
-void print_lookup(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
+void print_lookup(const Body& body, const Vector3d& direction, double reynolds_number) {
+    const LoadTables& tables = *body.tables;
     const LoadEntry entry = look_up(tables, direction, reynolds_number);
     const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
     print_result("moving along ({:.4f}, {:.4f}, {:.4f}) in shape axes at Reynolds number {:.6g}\n",
                  direction.x(), direction.y(), direction.z(), reynolds_number);
     print_result("  {:<18}{:.4f} +- {:.4f}\n", "drag coefficient", drag(entry, direction),
                  drag_error(error, direction));
+    const double projected = projected_area(body.surface, direction);
+    print_result("  {:<18}{:.4f} +- {:.4f}, on the {:.4g} m^2 that face the flow\n", "",
+                 on_projected_area(drag(entry, direction), tables, projected),
+                 on_projected_area(drag_error(error, direction), tables, projected), projected);
     print_vector("force", entry.force, error.force);
     print_vector("moment", entry.moment, error.moment);
     print_result("  {:<18}{:.5f} +- {:.5f}\n", "k/U^2", entry.turbulent_kinetic_energy,
@@ -57,23 +71,29 @@ void print_lookup(const LoadTables& tables, const Vector3d& direction, double re
 }
 
 /// Returns the tables' entry in a direction as JSON: drag_coefficient, force, moment,
-/// turbulent_kinetic_energy, dissipation_rate, each with its _error; on A = pi L^2/4 and L.
-nlohmann::json lookup_as_json(const LoadTables& tables, const Vector3d& direction, double reynolds_number) {
+/// turbulent_kinetic_energy, dissipation_rate, each with its _error; on A = pi L^2/4 and L; and
+/// projected_area (m^2) with the drag coefficient on it.
+nlohmann::json lookup_as_json(const Body& body, const Vector3d& direction, double reynolds_number) {
+    const LoadTables& tables = *body.tables;
+    const double projected = projected_area(body.surface, direction);
     const LoadEntry entry = look_up(tables, direction, reynolds_number);
     const LoadEntryError error = look_up_error(tables, direction, reynolds_number);
-    return {{"direction", as_json(direction)},
-            {"reynolds_number", reynolds_number},
-            {"reference_length", tables.reference_length},
-            {"drag_coefficient", drag(entry, direction)},
-            {"drag_coefficient_error", drag_error(error, direction)},
-            {"force", as_json(entry.force)},
-            {"force_error", as_json(error.force)},
-            {"moment", as_json(entry.moment)},
-            {"moment_error", as_json(error.moment)},
-            {"turbulent_kinetic_energy", entry.turbulent_kinetic_energy},
-            {"turbulent_kinetic_energy_error", error.turbulent_kinetic_energy},
-            {"dissipation_rate", entry.dissipation_rate},
-            {"dissipation_rate_error", error.dissipation_rate}};
+    return {
+        {"direction", as_json(direction)},
+        {"reynolds_number", reynolds_number},
+        {"reference_length", tables.reference_length},
+        {"drag_coefficient", drag(entry, direction)},
+        {"drag_coefficient_error", drag_error(error, direction)},
+        {"projected_area", projected},
+        {"drag_coefficient_on_projected_area", on_projected_area(drag(entry, direction), tables, projected)},
+        {"force", as_json(entry.force)},
+        {"force_error", as_json(error.force)},
+        {"moment", as_json(entry.moment)},
+        {"moment_error", as_json(error.moment)},
+        {"turbulent_kinetic_energy", entry.turbulent_kinetic_energy},
+        {"turbulent_kinetic_energy_error", error.turbulent_kinetic_energy},
+        {"dissipation_rate", entry.dissipation_rate},
+        {"dissipation_rate_error", error.dissipation_rate}};
 }
 
 nlohmann::json report_body(const std::string& path, bool json) {
@@ -141,8 +161,8 @@ nlohmann::json report_lookup(const std::string& path, const std::string& words, 
     const Body body = read_body_file(path);
     if (!body.tables) throw Error(fmt::format("{}: has no tables; make them with 'samara bake'", path));
     const double at = reynolds_number > 0.0 ? reynolds_number : body.tables->reynolds_numbers.back();
-    if (!json) print_lookup(*body.tables, direction, at);
-    return lookup_as_json(*body.tables, direction, at);
+    if (!json) print_lookup(body, direction, at);
+    return lookup_as_json(body, direction, at);
 }
 
 }  // namespace

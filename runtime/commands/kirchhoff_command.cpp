@@ -183,7 +183,8 @@ int kirchhoff_command(int argc, const char* const* argv) {
         "is.\n"
         "JSON: added_mass (6x6; kg m^2, kg m, kg), reference_point and centroid (m), volume (m^3), "
         "triangles,\n"
-        "error_estimate and asymmetry (relative), method, seconds (with meshing), output.\n\n"
+        "error_estimate and asymmetry (relative), method, seconds (with meshing), output.\n"
+        "Not offered: a body near a wall, a free surface or other bodies; Capytaine solves these.\n\n"
         "Example: samara kirchhoff rubber.stl -o rubber.body.h5");
     return run_program(argc, argv, arguments, [&] { return run(request, arguments.json()); });
 }

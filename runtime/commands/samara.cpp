@@ -41,7 +41,7 @@ constexpr Command commands[] = {
     {"wind", "velocity grids of OpenVDB -> wind file, for a scene's [wind.file]", nullptr},
     {"bodies", "lists the ready-baked bodies", samara::bodies_command},
     {"simulate", "scene -> motion of its bodies", samara::simulate_command},
-    {"search", "scene -> seeds with which a body hits a target or passes a ring", samara::search_command},
+    {"search", "scene -> seeds and launches with which a body lands as it shall", samara::search_command},
     {"export", "motion -> .glb, .usda, .chan for animation tools, .html, .csv", samara::export_command},
     {"plot", "motion or body -> picture: silhouettes, time series; polars, maps", samara::plot_command},
     {"compare", "compares a motion with a reference, such as a fall by full CFD", samara::compare_command},

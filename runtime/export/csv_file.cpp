@@ -15,7 +15,19 @@ namespace {
 constexpr const char* column_names =
     "run,body,copy,time,position_x,position_y,position_z,orientation_w,orientation_x,orientation_y,"
     "orientation_z,velocity_x,velocity_y,velocity_z,angular_velocity_x,angular_velocity_y,"
-    "angular_velocity_z\n";
+    "angular_velocity_z";
+
+/// Returns the line of the columns' names.
+std::string header_of(const Motion& motion) {
+    std::string header = column_names;
+    for (const auto& [part, member] : parts_of_fluid_forces) {
+        if (!motion.has_forces) break;
+        for (const char* quantity : {"moment", "force"}) {
+            for (const char axis : {'x', 'y', 'z'}) header += fmt::format(",{}_{}_{}", part, quantity, axis);
+        }
+    }
+    return header + '\n';
+}
 
 /// Returns a field of RFC 4180: in quotes where it holds a comma or a quote. An apostrophe before it tells
 /// spreadsheets that a text that begins like a formula is none.
@@ -45,6 +57,14 @@ void append_rows(fmt::memory_buffer& rows, const Motion& motion, const BodyMotio
               p.angular_velocity.x(), p.angular_velocity.y(), p.angular_velocity.z()}) {
             fmt::format_to(std::back_inserter(rows), ",{}", value);
         }
+        for (const auto& [part, member] : parts_of_fluid_forces) {
+            if (!motion.has_forces) break;
+            const auto& forces = body.forces[motion.index(body, run, static_cast<int>(frame), copy)];
+            const Wrench& wrench = forces.*member;
+            for (const Vector3d* vector : {&wrench.moment, &wrench.force}) {
+                fmt::format_to(std::back_inserter(rows), ",{},{},{}", vector->x(), vector->y(), vector->z());
+            }
+        }
         rows.push_back('\n');
     }
 }
@@ -60,7 +80,7 @@ std::size_t write_csv(const std::filesystem::path& file, const Motion& motion, c
     const std::size_t total = static_cast<std::size_t>(end_run - first_run) * copies * motion.times.size();
     std::size_t done = 0;
     replace_file_by_stream(file, [&](std::ostream& stream) {
-        stream << column_names;
+        stream << header_of(motion);
         fmt::memory_buffer rows;
         for (int r = first_run; r < end_run; ++r) {
             for (const BodyMotion& body : motion.bodies) {

@@ -50,6 +50,7 @@ std::string_view page_bytes() {
 
 constexpr std::string_view mark = "<!--MOTION-->";
 constexpr std::size_t floats_of_pose = 10;  // as runtime/page/motion.js reads them
+constexpr std::size_t floats_of_forces = 12;
 constexpr double most_bytes = 384e6;
 
 /// Writes an array, which motion.js finds by its name.
@@ -85,6 +86,20 @@ std::vector<float> poses_of(const Motion& motion, const BodyMotion& body, int ru
             append_floats(floats,
                           std::array<double, 3>{pose.velocity.dot(down), inclination(motion, body, pose),
                                                 pose.angular_velocity.norm()});
+        }
+    }
+    return floats;
+}
+
+/// Returns the forces (N) as runtime/page/forces.js reads them.
+std::vector<float> forces_of(const Motion& motion, const BodyMotion& body, int run) {
+    std::vector<float> floats;
+    for (int frame = 0; frame < motion.frames(); ++frame) {
+        for (int copy = 0; copy < body.copies; ++copy) {
+            const FluidForces& forces = body.forces[motion.index(body, run, frame, copy)];
+            for (const Wrench* wrench : {&forces.drag, &forces.lift, &forces.inertia, &forces.noise}) {
+                append_floats(floats, wrench->force);
+            }
         }
     }
     return floats;
@@ -174,6 +189,7 @@ std::string header_of(const Motion& motion, int run, const std::string& title, c
                              {"detail", detail},
                              {"frame_rate", motion.frame_rate},
                              {"first_copy", style.first},
+                             {"has_forces", motion.has_forces},
                              {"colors", nlohmann::json::array()}};
     for (const Vector3d& color : style.colors) header["colors"].push_back({color.x(), color.y(), color.z()});
     header["ground"] = motion.ground ? nlohmann::json(*motion.ground) : nlohmann::json(nullptr);
@@ -200,7 +216,8 @@ void require_size(const std::filesystem::path& file, const Motion& motion) {
     for (const BodyMotion& body : motion.bodies) {
         poses = std::max(poses, static_cast<double>(motion.times.size()) * body.copies);
     }
-    const double bytes = poses * floats_of_pose * sizeof(float) * 4.0 / 3.0;
+    const std::size_t floats = floats_of_pose + (motion.has_forces ? floats_of_forces : 0);
+    const double bytes = poses * static_cast<double>(floats * sizeof(float)) * 4.0 / 3.0;
     if (bytes > most_bytes) {
         throw Error(
             fmt::format("{}: the poses need {:.0f} MB, but the limit of browsers is {:.0f}; give a lower "
@@ -239,6 +256,9 @@ void write_page(const std::filesystem::path& file, const Motion& motion, int run
                 write_mesh(stream, std::to_string(b), body.surface, body.center_of_mass);
             }
             write_array(stream, fmt::format("{}-poses", b), poses_of(motion, body, run));
+            if (motion.has_forces) {
+                write_array(stream, fmt::format("{}-forces", b), forces_of(motion, body, run));
+            }
         }
         for (std::size_t i = 0; i < motion.obstacles.size(); ++i) {
             const std::string name = fmt::format("obstacle-{}", i);

@@ -52,6 +52,7 @@ Motion sampled_at(const Motion& motion, const std::vector<double>& times) {
         const BodyMotion& body = motion.bodies[b];
         std::vector<Pose>& poses = result.bodies[b].poses;
         poses.clear();
+        result.bodies[b].forces.clear();
         poses.reserve(static_cast<std::size_t>(motion.runs) * places.size() *
                       static_cast<std::size_t>(body.copies));
         for (int run = 0; run < motion.runs; ++run) {
@@ -63,6 +64,13 @@ Motion sampled_at(const Motion& motion, const std::vector<double>& times) {
                                         : smoothly_interpolated(before,
                                                                 motion.pose(body, run, place.frame + 1, copy),
                                                                 place.fraction, place.duration));
+                    if (!motion.has_forces) continue;
+                    const FluidForces& forces = body.forces[motion.index(body, run, place.frame, copy)];
+                    result.bodies[b].forces.push_back(
+                        place.fraction == 0.0
+                            ? forces
+                            : forces.towards(body.forces[motion.index(body, run, place.frame + 1, copy)],
+                                             place.fraction));
                 }
             }
         }
@@ -92,11 +100,14 @@ BodyMotion looped_body(const Motion& motion, const BodyMotion& body, int run, in
     BodyMotion result = body;
     result.copies = body.copies * pieces;
     result.poses.clear();
+    result.forces.clear();
     result.sizes.clear();
     for (int frame = 0; frame <= frames; ++frame) {
         for (int piece = 0; piece < pieces; ++piece) {
             for (int copy = 0; copy < body.copies; ++copy) {
-                result.poses.push_back(motion.pose(body, run, piece * frames + frame, copy));
+                const std::size_t index = motion.index(body, run, piece * frames + frame, copy);
+                result.poses.push_back(body.poses[index]);
+                if (motion.has_forces) result.forces.push_back(body.forces[index]);
             }
         }
     }

@@ -30,6 +30,7 @@ Motion selected(Motion motion, const std::vector<std::string>& names,
     if (!copies) return motion;
     for (BodyMotion& body : motion.bodies) {
         body.poses = of_copies(body.poses, body.copies, *copies);
+        body.forces = of_copies(body.forces, body.copies, *copies);
         body.sizes = of_copies(body.sizes, body.copies, *copies);
         body.copies = copies->last - copies->first + 1;
     }

@@ -56,6 +56,8 @@ function choose(body, copy) {
 
 /** Updates everything to the shown time. */
 function refresh() {
+    stage.showForces(element('forces').checked);
+    element('forces-legend').hidden = !element('forces').checked;
     stage.show(time, element('follow').checked);
     stage.showTrail(element('trail').checked);
     const { frame, next, fraction } = placeOf(motion, time);
@@ -125,6 +127,7 @@ const KEYS = {
     End: () => seek(end),
     f: () => toggle('follow'),
     t: () => toggle('trail'),
+    a: () => { if (motion.has_forces) toggle('forces'); },
     r: () => showAll(),
     h: () => showHelp(element('help').hidden),
 };
@@ -135,6 +138,8 @@ function fillControls() {
         element('body').add(new Option(body.copies > 1 ? `${body.name} (${body.copies})` : body.name, index));
     });
     element('body-choice').hidden = motion.bodies.length === 1;
+    element('forces-choice').hidden = !motion.has_forces;
+    element('forces').checked = motion.has_forces;
     element('scrub').min = String(begin);
     element('scrub').max = String(end);
     const caption = element('caption');
@@ -157,7 +162,7 @@ function listen() {
     });
     element('body').addEventListener('change', (event) => choose(Number(event.target.value), 0));
     element('copy').addEventListener('change', (event) => choose(chosen.body, Number(event.target.value) - motion.first_copy));
-    for (const id of ['follow', 'trail']) element(id).addEventListener('change', () => { stale = true; });
+    for (const id of ['follow', 'trail', 'forces']) element(id).addEventListener('change', () => { stale = true; });
     window.addEventListener('keydown', (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey || event.target.id === 'copy') return;
         const action = KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key];

@@ -35,6 +35,7 @@ export function readMotion() {
                 new Blob([bytesOf(`motion-${index}-image-${image}`)], { type }));
         }
         body.poses = new Float32Array(bytesOf(`motion-${index}-poses`));
+        if (motion.has_forces) body.forces = new Float32Array(bytesOf(`motion-${index}-forces`));
         body.sizes ??= new Array(body.copies).fill(1);
     });
     motion.obstacles.forEach((obstacle, index) => {

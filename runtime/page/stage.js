@@ -9,6 +9,7 @@ import { Line2 } from 'three/addons/lines/Line2.js';
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { Crowd, geometryOf, surfaceAt } from './crowd.js';
+import { ForceArrows } from './forces.js';
 import { Ground, Light } from './light.js';
 import { PLACE_FLOATS, placeOf, poseAt } from './motion.js';
 import { BODIES, CHOSEN, OBSTACLE, onPalette, paletteColor } from './palette.js';
@@ -47,6 +48,7 @@ export class Stage {
         this.trail = new Line2(new LineGeometry(), new LineMaterial({ color: CHOSEN, linewidth: 2 }));
         this.trail.frustumCulled = false;
         this.scene.add(this.trail);
+        this.forces = new ForceArrows(this.scene, document.getElementById('forces-legend'));
         this.marker = document.getElementById('marker');
         this.chosen = { body: 0, copy: 0 };
         this.place = new Vector3();
@@ -198,6 +200,7 @@ export class Stage {
         if (bodies.length > 1 || bodies[0].copies > 1) this.crowds[body].paint(copy, CHOSEN);
         this.layTrail();
         this.layGhosts();
+        this.forces.choose(bodies[body], copy);
         this.followed = null;
     }
 
@@ -242,6 +245,11 @@ export class Stage {
         this.ghosts.visible = on;
     }
 
+    /** Shows or hides the forces on the chosen body. */
+    showForces(on) {
+        this.forces.shown = on;
+    }
+
     /** Adds the chosen body's path; it is drawn up to the shown time. */
     layTrail() {
         const body = this.motion.bodies[this.chosen.body];
@@ -268,6 +276,7 @@ export class Stage {
         this.place.fromArray(body.poses, poseAt(body, frame, this.chosen.copy))
             .lerp(after.fromArray(body.poses, poseAt(body, next, this.chosen.copy)), fraction);
         this.followPlace(follow);
+        this.forces.place(this.place, frame, next, fraction);
         for (const crowd of this.crowds) crowd.place(frame, next, fraction, this.camera.position, this.focal);
         const turnAfter = new Quaternion();
         this.motion.obstacles.forEach(({ places }, index) => {

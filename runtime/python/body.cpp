@@ -1,5 +1,6 @@
 // samara.Body: what a body file holds.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -12,6 +13,7 @@
 #include "bindings.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/body/body_file.hpp"
+#include "samara/core/surface/octahedral_map.hpp"
 #include "samara/pictures/body_pictures.hpp"
 
 namespace samara::python {
@@ -155,6 +157,24 @@ void bind_body(py::module_& module) {
                 return view(tables->reynolds_numbers.data(), {length(tables->reynolds_numbers.size())}, self);
             },
             "Reynolds numbers of the tables, ascending, shape (r,); None without tables.")
+        .def_property_readonly(
+            "table_directions",
+            [](const Body& body) -> py::object {
+                if (!body.tables) return py::none();
+                const LoadTables& tables = *body.tables;
+                const auto size = static_cast<py::ssize_t>(tables.map_size());
+                py::array_t<double> array({size, size, py::ssize_t{3}});
+                double* number = array.mutable_data();
+                for (const Vector3d& node : octahedral_nodes(tables.subdivisions)) {
+                    const Vector3d direction = tables.axes * node;
+                    number = std::copy_n(direction.data(), 3, number);
+                }
+                array.attr("setflags")(py::arg("write") = false);
+                return array;
+            },
+            "Directions of the tables' nodes: unit vectors of the velocity relative to the fluid, shape "
+            "axes, "
+            "shape (n, n, 3); None without tables.")
         .def_property_readonly("force_table", table_of(&LoadEntry::force),
                                "Force coefficients F / (rho U^2 A / 2) over the octahedral map of "
                                "directions, body axes, shape (r, n, n, 3); None without tables.")

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "samara/analysis/advice/input_warnings.hpp"
 #include "samara/analysis/verdicts/case_records.hpp"
 #include "samara/core/body/body_check.hpp"
 #include "samara/core/body/table_errors.hpp"
@@ -187,6 +188,9 @@ std::string speeds_in(const char* fluid, const LoadTables& tables) {
 
 void judge_reynolds_numbers(std::vector<Finding>& findings, const LoadTables& tables) {
     const auto& numbers = tables.reynolds_numbers;
+    if (const std::string warning = drag_crisis_warning(numbers.back()); !warning.empty()) {
+        findings.push_back({Grade::limited, "drag crisis", warning});
+    }
     const std::string speeds = speeds_in("water", tables) + ", " + speeds_in("air", tables);
     if (numbers.size() == 1) {
         findings.push_back(

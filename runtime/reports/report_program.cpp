@@ -242,9 +242,10 @@ constexpr const char* footer =
     R"(The page is a single self-contained file. It begins with a verdict: what the bake is good
 for, what not, and why. Then it shows the body, polars with error bars, maps over all
 directions, convergence and errors by source, the dynamic coefficients, the cases, and the
-provenance. With the folder of cases, NAME.cases beside NAME.body.h5, it adds meshes, y+,
-the convergence of the cases, and falls by full CFD beside simulated ones. The page and a
-warning list what is missing. It needs Python's matplotlib and Jinja.
+provenance. With the folder of cases, NAME.cases beside NAME.body.h5, it adds how the flow
+was solved (domain, blockage, averaging, observed order), meshes, y+, the convergence of the
+cases, and falls by full CFD beside simulated ones. The page and a warning list what is
+missing. It needs Python's matplotlib and Jinja.
 
 JSON: output, body, verdict (grade: good, limited or bad; headline, good_for, not_for,
 findings), parts (titles), cases (the folder, or null), missing (a list).

@@ -22,16 +22,6 @@ namespace {
 /// Bodies of a group that are enough to know the mean errors of its tables along all paths.
 constexpr std::size_t judged_copies = 1000;
 
-/// Returns the times of the frames (s), from 0 to the duration.
-std::vector<double> frame_times(const Scene& scene) {
-    const auto last = static_cast<int>(std::floor(scene.duration * scene.frame_rate * (1.0 + 1e-12)));
-    std::vector<double> times(static_cast<std::size_t>(last) + 1);
-    for (std::size_t frame = 0; frame < times.size(); ++frame) {
-        times[frame] = static_cast<double>(frame) / scene.frame_rate;
-    }
-    return times;
-}
-
 std::string models_of(const SceneBody& scene_body, const ImmersedBody& body) {
     constexpr const char* langevin[] = {"seen-fluid", "body-velocity", "wake"};
     std::string text =
@@ -81,6 +71,15 @@ void shorten(std::vector<Value>& rows, std::size_t runs, std::size_t planned, st
 }
 
 }  // namespace
+
+std::vector<double> frame_times(const Scene& scene) {
+    const auto last = static_cast<int>(std::floor(scene.duration * scene.frame_rate * (1.0 + 1e-12)));
+    std::vector<double> times(static_cast<std::size_t>(last) + 1);
+    for (std::size_t frame = 0; frame < times.size(); ++frame) {
+        times[frame] = static_cast<double>(frame) / scene.frame_rate;
+    }
+    return times;
+}
 
 SimulationSettings simulation_settings(const Scene& scene, int runs, int threads) {
     return {.fluid = scene.fluid,

@@ -12,6 +12,9 @@ namespace samara {
 
 struct Surroundings;
 
+/// Returns the times of a scene's frames (s), from 0 to its duration.
+std::vector<double> frame_times(const Scene& scene);
+
 /// Returns the surroundings of the bodies of a scene: fluid, wind, ground and obstacles.
 Surroundings surroundings_of(const Scene& scene);
 

@@ -39,5 +39,18 @@ TEST(BlenderBake, WorksOutTheAddedMassAloneWithoutOpenfoam) {
     EXPECT_EQ(found["cancelled"], true);
 }
 
+TEST(BlenderBake, KeepsTheMeshsTrianglesOrMakesAsManyAsAreAskedFor) {
+    const json found = test::use_addon({"meshing", SAMARA_PROGRAMS "/samara"});
+    for (const char* name : {"kept", "few", "many"}) {
+        EXPECT_EQ(found[std::string(name) + "_error"], "");
+        EXPECT_EQ(found[name][1], true) << "it has its added mass";
+        EXPECT_EQ(found[name][2], "Sphere");
+    }
+    EXPECT_EQ(found["kept"][0], found["own"]);
+    // Curved triangles are shown as four each.
+    EXPECT_NEAR(found["few"][0].get<double>(), 4.0 * 200.0, 0.2 * 800.0);
+    EXPECT_NEAR(found["many"][0].get<double>(), 4.0 * 2000.0, 0.2 * 8000.0);
+}
+
 }  // namespace
 }  // namespace samara

@@ -67,6 +67,11 @@ await page.locator('#scrub').evaluate((scrub, to) => {
 await settle();
 found.time = await samara('s.time()');
 found.poses = await samara('s.motion.bodies.map((b, i) => Array.from({ length: b.copies }, (_, c) => s.drawnPose(i, c)))');
+found.arrows = await samara(`s.stage.forces.arrows.map((arrow) => {
+    if (!arrow.visible) return null;
+    const up = s.stage.camera.up.clone().set(0, 1, 0).applyQuaternion(arrow.quaternion);
+    return { direction: up.toArray(), length: arrow.line.scale.y + arrow.cone.scale.y, place: arrow.position.toArray() };
+})`);
 found.series = await samara('s.series().map((values) => Array.from(values))');
 found.stage = await colours('#stage');
 /** The shares of the stage's pixels in which one of red, green and blue is more than half above both others, without the trail. */

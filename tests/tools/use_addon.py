@@ -20,7 +20,7 @@ import bpy
 sys.dont_write_bytecode = True  # the sources stay as they are
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-from addon_tasks import files, flights, surroundings, window  # noqa: E402
+from addon_tasks import bodies, files, flights, surroundings, window  # noqa: E402
 
 zip_file, task, *arguments = sys.argv[sys.argv.index("--") + 1 :]
 
@@ -46,7 +46,7 @@ def go_on(steps):
     return None
 
 
-tasks = {f.__name__: f for module in (flights, surroundings, files, window) for f in module.TASKS}
+tasks = {f.__name__: f for module in (bodies, flights, surroundings, files, window) for f in module.TASKS}
 found = tasks[task](*arguments)
 if inspect.isgenerator(found):
     bpy.context.preferences.view.show_splash = False

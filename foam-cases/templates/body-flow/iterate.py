@@ -166,7 +166,7 @@ class Rounds:
             raise breakdown(os.path.abspath(self.log), self.solver, "iteration")
         attempt["iterations"] = end
         unsteady, quantity, start = worst_quantity(".", attempt["first"], end, self.tolerance, self.turbulent,
-                                                   self.time_step)
+                                                   self.time_step, float(own("viscosity")))
         attempt["unsteadiness_over_tolerance"] = unsteady
         attempt["worst_quantity"] = quantity
         self.state["averaging_start"] = start

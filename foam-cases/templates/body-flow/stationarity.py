@@ -16,8 +16,10 @@ BATCHES = 6
 # Loads below these are noise: coefficients relative to rho U^2 A/2 and rho U^2 A L/2.
 LEAST_FORCE = 0.1
 LEAST_MOMENT = 0.2
-# The largest force coefficient that is no sign of divergence: a plate broadside has 2.5.
+# The largest force coefficient that is no sign of divergence: a plate broadside has 2.5; and in creeping flow, times the Reynolds
+# number: a sphere has 24.
 LARGEST_FORCE = 20.0
+LARGEST_CREEPING_FORCE = 100.0
 AREA_UNIT = math.pi / 8  # rho U^2 A/2 with rho = U = L = 1 and A = pi L^2/4
 
 
@@ -64,10 +66,11 @@ def whole_histories(folder, last, turbulent, time_step=1.0):
             whole_history(folder, "nearWake", "volFieldValue.dat", last, time_step) if turbulent else [])
 
 
-def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
+def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0, viscosity=0.0):
     """Returns (unsteadiness relative to its tolerance, name, first iteration of the window) of the worst quantity.
 
-    `first`: the iteration after which the current settings are used; `last`: the last iteration. Raises Diverged where values are
+    `first`: the iteration after which the current settings are used; `last`: the last iteration; `viscosity`: the inverse of the
+    Reynolds number. Raises Diverged where values are
     not finite, not positive (k, epsilon) or too large, CaseError where a history is not whole."""
     forces, moments, means = whole_histories(folder, last, turbulent, time_step)
     for row in forces + moments + means:
@@ -82,7 +85,7 @@ def worst_quantity(folder, first, last, tolerance, turbulent, time_step=1.0):
     for name, rows, least in (("force", forces, LEAST_FORCE), ("moment", moments, LEAST_MOMENT)):
         components = [window(rows, i, AREA_UNIT) for i in (1, 2, 3)]
         scale = max(least, math.hypot(*map(mean, components)))
-        if scale > LARGEST_FORCE:
+        if scale > LARGEST_FORCE + LARGEST_CREEPING_FORCE * viscosity:
             raise Diverged(f"the {name} coefficient reached {scale:.3g}")
         weights[name] = math.hypot(*map(unsteadiness, components)) / (tolerance * scale)
     for i, name in enumerate(("k", "epsilon") if turbulent else (), 1):

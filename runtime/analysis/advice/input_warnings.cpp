@@ -91,6 +91,18 @@ std::string unit_warnings(const Body& body, const MassSpecification& asked, cons
     return fmt::format("{}", fmt::join(warnings, "; and "));
 }
 
+std::string drag_crisis_warning(double highest_reynolds_number) {
+    if (highest_reynolds_number < drag_crisis_reynolds_number) return {};
+    return fmt::format(
+        "Reynolds number {:.3g} is within or above the drag crisis of smooth bodies (a sphere's drag falls "
+        "from "
+        "0.5 to 0.1 between 2e5 and 4e5: Achenbach 1972), which these closures do not reproduce: k-epsilon "
+        "has no "
+        "laminar boundary layer, and kOmegaSSTLM was compared with measurements up to 1e5; bodies whose flow "
+        "separates at sharp edges have no such crisis",
+        highest_reynolds_number);
+}
+
 std::string in_words(const IdentifiedDensities& densities) {
     const auto& [lowest, highest] = densities;
     if (lowest <= 0.0) return "unknown";

@@ -28,6 +28,15 @@ std::string size_warnings(const Body& body, ScaleRemedy remedy);
 std::string unit_warnings(const Body& body, const MassSpecification& asked, const Fluid& fluid,
                           double gravity, ScaleRemedy remedy);
 
+/// Lowest Reynolds number (U L/nu) at which the boundary layer of a smooth body may be turbulent before it
+/// separates: the drag coefficient of a sphere falls from 0.5 at 2e5 to 0.1 at 3.8e5 (Achenbach, J. Fluid
+/// Mech. 54, 565, 1972).
+inline constexpr double drag_crisis_reynolds_number = 2e5;
+
+/// Returns a warning, to stand behind a body's name, where tables reach the drag crisis of smooth bodies;
+/// empty below it.
+std::string drag_crisis_warning(double highest_reynolds_number);
+
 /// Returns the densities as text: "1.5", "1.5 to 11.4", or "unknown".
 std::string in_words(const IdentifiedDensities& densities);
 

@@ -7,7 +7,7 @@ import bpy
 import numpy
 from bpy.props import EnumProperty
 
-from .bake_job import BakeJob, bake_command, find_program, write_stl
+from .bake_job import BakeJob, bake_commands, find_program, write_stl
 from .conventions import metres_per_unit, noise_name
 from .job_operator import JobOperator
 from .meshes import evaluated_mesh
@@ -68,12 +68,16 @@ class SAMARA_OT_bake(JobOperator, bpy.types.Operator):
         folder, name = output_folder(), noise_name(o.name)
         try:
             write_stl(os.path.join(folder, f"{name}.stl"), corners)
-            command = bake_command(program, folder, name, self.quality, o.samara.density, fluid_of(context.scene))
+            body = o.samara
+            meshing = ["--keep"] if body.keep else ["--triangles", str(body.triangles)] if body.triangles else []
+            if body.thickness > 0.0:
+                meshing += ["--thickness", repr(body.thickness * metres_per_unit(context.scene))]
+            commands = bake_commands(program, folder, name, self.quality, body.density, fluid_of(context.scene), meshing)
         except OSError as error:
             raise SamaraError(f"{error.filename}: {error.strerror}") from None
         self._name, self._scale = o.name, scale_of(o)
         self._file = os.path.join(folder, f"{name}.body.h5")
-        return BakeJob(command)
+        return BakeJob(commands)
 
     def status(self):
         return f"samara is baking. {self.job.line}"

@@ -30,31 +30,41 @@ def write_stl(path, corners):
         file.write(records.tobytes())
 
 
-def scene_text(name, stl, density, fluid):
+def scene_text(name, shape, density, fluid):
     """Returns the scene (TOML) that `samara bake` reads. fluid: density and viscosity."""
     return (
         f"[scene]\nduration = 1.0\n\n[fluid]\ndensity = {fluid[0]!r}\nviscosity = {fluid[1]!r}\n\n"
-        f'[[body]]\nname = "{name}"\nshape = "{stl}"\ndensity = {density!r}\n'
+        f'[[body]]\nname = "{name}"\nshape = "{shape}"\ndensity = {density!r}\n'
     )
 
 
-def bake_command(program, folder, name, quality, density, fluid):
-    """Returns the command that makes folder/NAME.body.h5 from folder/NAME.stl, and writes the scene that it reads."""
+def bake_commands(program, folder, name, quality, density, fluid, meshing=()):
+    """Returns the commands that make folder/NAME.body.h5 from folder/NAME.stl, and writes the scene that they read. meshing: options
+    of `samara mesh`."""
+    shape, commands = f"{name}.stl", []
+    if meshing:
+        shape = f"{name}.mesh.body.h5"
+        commands = [[program, "mesh", os.path.join(folder, f"{name}.stl"), "-o", os.path.join(folder, shape), *meshing]]
     if quality == "SHAPE":
         output = os.path.join(folder, f"{name}.body.h5")
-        return [program, "kirchhoff", os.path.join(folder, f"{name}.stl"), "-o", output]
+        return commands + [[program, "kirchhoff", os.path.join(folder, shape), "-o", output]]
     scene = os.path.join(folder, f"{name}.toml")
     with open(scene, "w", encoding="utf-8") as file:
-        file.write(scene_text(name, f"{name}.stl", density, fluid))
-    return [program, "bake", scene, "-o", folder, "--whole-grid", "--quality", quality.lower()]
+        file.write(scene_text(name, shape, density, fluid))
+    return commands + [[program, "bake", scene, "-o", folder, "--whole-grid", "--quality", quality.lower()]]
 
 
 class BakeJob:
-    """A running command, its progress and its last line of output."""
+    """Commands that run one after the other, their progress and the last line of output."""
 
-    def __init__(self, command):
-        self.line = ""  # the last line that it wrote
+    def __init__(self, commands):
+        self.line = ""  # the last line that they wrote
         self.cancelled = False
+        self._left = list(commands)
+        self._start()
+
+    def _start(self):
+        command = self._left.pop(0)
         try:
             # A separate process group, so that its solvers end with it.
             self._process = subprocess.Popen(
@@ -81,18 +91,22 @@ class BakeJob:
         return int(found[1]) / max(1, int(found[2])) if found else 0.0
 
     def is_done(self):
-        """Whether the command has succeeded. Raises SamaraError with its message where it failed."""
+        """Whether all commands have succeeded. Starts the next one. Raises SamaraError with the message of one that failed."""
         status = self._process.poll()
         if status is None:
             return False
         self._reader.join(timeout=5.0)
         if status != 0:
             raise SamaraError(self.line or f"samara ended with status {status}")
+        if self._left:
+            self._start()
+            return False
         return True
 
     def wait(self):
         self._process.wait()
-        self.is_done()
+        while not self.is_done():
+            self._process.wait()
 
     def cancel(self):
         """Ends the command; solved cases are kept, and the next bake continues from there."""

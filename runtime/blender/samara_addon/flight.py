@@ -4,6 +4,7 @@ import concurrent.futures
 import dataclasses
 import functools
 import hashlib
+import math
 import os
 import threading
 from typing import Optional
@@ -13,6 +14,10 @@ import numpy
 from . import samara_library
 from .conventions import noise_name
 from .samara_library import SamaraError
+
+FAR_TURN = math.radians(90.0)  # between two frames: a body that turns further has poses in between
+KEPT_TURN = math.radians(60.0)  # the most from one kept pose to the next
+PARTS = 24  # of a frame, of which those are kept that are needed
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,7 +53,7 @@ class Surroundings:
     fluid_density: float
     fluid_viscosity: float
     current: tuple
-    wind: str  # TOML
+    winds: tuple  # TOML: one, or one for each frame after the first
     gravity: tuple
     ground: Optional[float]
     obstacles: tuple
@@ -78,8 +83,8 @@ class Surroundings:
         if self.ground is not None:
             settings.has_ground, settings.ground = 1, self.ground
         simulation = samara_library.Simulation(settings)
-        if self.wind:
-            simulation.set_wind(self.wind)
+        if self.winds[0]:
+            simulation.set_wind(self.winds[0])
         for obstacle in self.obstacles:
             obstacle.add_to(simulation)
         return simulation
@@ -93,12 +98,14 @@ class Request:
     body_file: str
     body_file_time: int  # modification time: a file that is baked again is another request
     density: float
-    mass: str  # FILE: the file's mass, or by the density where it has none; DENSITY; MASS
+    area_density: float  # g/m^2
+    mass: str  # FILE: the file's mass, or by the density where it has none; DENSITY; AREA; MASS
     mass_given: tuple  # with MASS: kg, centre of mass or None, inertia (9 numbers) or None; at the object's size
     size: float  # relative to the body file
     start: float  # s, until which it is held or follows its keys
     led: bool  # whether the velocities are those of its keys, at the shape's origin
     loads: str  # AUTO (what the file recommends or holds), TABLE, SURFACE, COEFFICIENTS
+    patches: int  # 0: as the file recommends, or 1
     drag_coefficient: float
     lift_coefficient: float
     noise: bool
@@ -119,7 +126,10 @@ class Request:
         group.orientation[:] = self.orientation
         group.velocity[:] = self.velocity
         group.angular_velocity[:] = self.angular_velocity
-        group.loads = getattr(samara_library, f"LOADS_{body.loads_in_use(self.loads)}")
+        loads = body.loads_in_use(self.loads)
+        # Also with a recommendation a body without tables and loads of its surface has none.
+        group.loads = getattr(samara_library, f"LOADS_{'OF_BODY' if self.loads == 'AUTO' and loads != 'COEFFICIENTS' else loads}")
+        group.patches = self.patches
         group.drag_coefficient = self.drag_coefficient
         group.lift_coefficient = self.lift_coefficient
         group.turbulence = samara_library.TURBULENCE_AS_LOADS if self.noise else samara_library.TURBULENCE_NONE
@@ -135,6 +145,8 @@ class Request:
                 group.center_of_mass[:] = [x / size for x in center]
             if inertia is not None:
                 group.inertia[:] = [x / size**5 for x in inertia]
+        elif self.mass == "AREA":
+            group.area_density = self.area_density
         elif self.mass == "DENSITY" or body.mass == 0.0:
             group.density = self.density
 
@@ -160,6 +172,7 @@ class Flight:
         self.request = request
         self.poses = poses  # (frames, POSE_SIZE)
         self.fleet = fleet  # the fleet that simulates it; None: it is complete
+        self.between = []  # (frame from 0, pose): where it turns far between two frames, if its fleet keeps these
 
     @property
     def flown(self):
@@ -200,9 +213,11 @@ class Flight:
 class Fleet:
     """Bodies in the same surroundings, in one simulation. May be used from several threads."""
 
-    def __init__(self, surroundings, requests, refused):
-        """`refused`: called with (request, SamaraError) for those that cannot be simulated, which are left out."""
+    def __init__(self, surroundings, requests, refused, in_parts=False):
+        """`refused`: called with (request, SamaraError) for those that cannot be simulated, which are left out. `in_parts`: whether
+        poses between frames are kept where bodies turn far."""
         self.surroundings = surroundings
+        self.in_parts = in_parts
         self.flown = 0
         self.cancelled = threading.Event()  # ends the simulation within a frame
         self.failed = False
@@ -227,6 +242,34 @@ class Fleet:
     def is_flying(self):
         return self.flown < self.surroundings.frames and not self.failed and not self.cancelled.is_set()
 
+    def _advance(self):
+        """Simulates the next frame."""
+        frame, seconds, winds = self.flown, self.surroundings.frame_seconds, self.surroundings.winds
+        if frame > 1 and len(winds) > 1 and winds[frame - 1] != winds[frame - 2]:
+            self._simulation.set_wind(winds[frame - 1])
+        if frame > 0 and self.in_parts:
+            self._advance_in_parts(frame)
+        else:
+            self._simulation.advance_to(frame * seconds)
+            self._simulation.read_poses(self._poses[frame])
+
+    def _advance_in_parts(self, frame):
+        parts = numpy.empty((PARTS + 1, *self._poses.shape[1:]))
+        parts[0] = self._poses[frame - 1]
+        for part in range(1, PARTS + 1):
+            self._simulation.advance_to((frame - 1 + part / PARTS) * self.surroundings.frame_seconds)
+            self._simulation.read_poses(parts[part])
+        self._poses[frame] = parts[PARTS]
+        cosines = numpy.abs(numpy.einsum("pij,pij->pi", parts[:-1, :, 3:7], parts[1:, :, 3:7]))
+        turns = 2.0 * numpy.arccos(numpy.minimum(cosines, 1.0))
+        for i in numpy.flatnonzero(turns.sum(axis=0) > FAR_TURN):
+            turned = 0.0
+            for part in range(1, PARTS):
+                turned += turns[part - 1, i]
+                if turned + turns[part, i] > KEPT_TURN:
+                    self.flights[i].between.append((frame - 1 + part / PARTS, parts[part, i].copy()))
+                    turned = 0.0
+
     def fly_to(self, frame):
         """Simulates up to a frame of the range, counted from 0. A call for an early frame need not wait for another's late one."""
         while not self.cancelled.is_set():
@@ -237,8 +280,7 @@ class Fleet:
                     return
                 self._flying = True
             try:
-                self._simulation.advance_to(self.flown * self.surroundings.frame_seconds)
-                self._simulation.read_poses(self._poses[self.flown])
+                self._advance()
                 self.flown += 1
             except SamaraError:
                 self.failed = True
@@ -249,9 +291,9 @@ class Fleet:
                     self._turn.notify_all()
 
 
-def fleets_of(requests, refused, count=1):
+def fleets_of(requests, refused, count=1, in_parts=False):
     """Returns fleets for requests, at most `count` for each surroundings, but one where bodies collide. `refused`: called with
-    (request, SamaraError)."""
+    (request, SamaraError). `in_parts`: as of Fleet."""
     by_surroundings = {}
     for request in requests:
         by_surroundings.setdefault(request.surroundings, []).append(request)
@@ -261,7 +303,7 @@ def fleets_of(requests, refused, count=1):
         for i in range(shares):
             share = group[i::shares]
             try:
-                fleets.append(Fleet(surroundings, share, refused))
+                fleets.append(Fleet(surroundings, share, refused, in_parts))
             except SamaraError as error:  # by an obstacle or the wind
                 for request in share:
                     refused(request, error)
@@ -269,14 +311,15 @@ def fleets_of(requests, refused, count=1):
 
 
 class FlightJob:
-    """Simulates many objects over all frames, on all cores, beside the calling thread."""
+    """Simulates many objects over all frames, on all cores, beside the calling thread, with poses between frames of bodies that turn
+    far."""
 
     def __init__(self, requests):
         def refuse(_, error):
             raise error
 
         cores = os.cpu_count() or 1
-        fleets = fleets_of(requests, refuse, cores)
+        fleets = fleets_of(requests, refuse, cores, in_parts=True)
         flights = {flight.request.name: flight for fleet in fleets for flight in fleet.flights}
         self.flights = [flights[request.name] for request in requests]
         self._fleets = fleets

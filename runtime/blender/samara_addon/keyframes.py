@@ -32,13 +32,12 @@ def _insert_channel(action, path, index, frames, values):
     curve.update()
 
 
-def insert_poses(o, first_frame, locations, rotations):
-    """Replaces all keys of location and rotation_quaternion by linear ones at n consecutive frames that give the poses (n, 3) and
+def insert_poses(o, frames, locations, rotations):
+    """Replaces all keys of location and rotation_quaternion by linear ones at n frames, in order, that give the poses (n, 3) and
     (n, 4) together with the object's delta transform."""
     turn_by_quaternions(o)
     locations, rotations = own_channels(o, locations, rotations)
     action = _own_action(o)
-    frames = numpy.arange(first_frame, first_frame + len(locations))
     for path, values in (("location", locations), ("rotation_quaternion", rotations)):
         for index in range(values.shape[1]):
             _insert_channel(action, path, index, frames, values[:, index])

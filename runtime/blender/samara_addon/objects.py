@@ -8,15 +8,21 @@ from mathutils import Quaternion
 
 from .conventions import frame_count, metres_per_unit, seconds_per_frame, size_of
 from .flight import Request, Surroundings
+from .ready_bodies import path_of
 from .samara_library import SamaraError
+from .wind import winds_of
 
 FLUIDS = {"WATER": (998.2, 1.002e-3), "AIR": (1.204, 1.825e-5)}  # kg/m^3, Pa s; at 20 degrees Celsius
 
 
+def path_of_body_file(file, library=None):
+    """Returns the absolute path of a body file, given by a path or as a ready-baked body; an empty text for an empty one."""
+    return path_of(file) or (os.path.normpath(bpy.path.abspath(file, library=library)) if file else "")
+
+
 def body_file_of(o):
     """Returns the absolute path of the object's body file, or an empty text."""
-    file = o.samara.body_file
-    return os.path.normpath(bpy.path.abspath(file, library=o.library)) if file else ""
+    return path_of_body_file(o.samara.body_file, o.library)
 
 
 def fluid_of(scene):
@@ -96,35 +102,6 @@ def start_pose(o):
     return tuple(location), tuple(rotation)
 
 
-def wind_of(scene):
-    """Returns the scene's wind as the keys of [wind], in TOML and SI units; empty where there is none."""
-    wind, unit = scene.samara, metres_per_unit(scene)
-    if not wind.use_wind:
-        return ""
-    direction = wind.wind_direction.copy()
-    if wind.wind_profile != "NONE":
-        direction.z = 0.0
-    if direction.length == 0.0 and wind.wind_speed > 0.0:
-        raise SamaraError("the wind has no direction; set one, which must be horizontal with a profile")
-    direction.normalize()
-    lines = [f"velocity = {[unit * wind.wind_speed * x for x in direction]}"]
-    if wind.wind_profile != "NONE" and wind.wind_speed > 0.0:
-        law = (
-            f'law = "log", roughness = {unit * wind.wind_roughness!r}'
-            if wind.wind_profile == "LOG"
-            else f'law = "power", exponent = {wind.wind_exponent!r}'
-        )
-        ground = unit * wind.ground if wind.use_ground else 0.0
-        lines.append(f"profile = {{ {law}, height = {unit * wind.wind_height!r}, ground = {ground!r} }}")
-    if wind.gust_speed > 0.0:
-        spectrum = {"VON_KARMAN": "von-karman", "KAIMAL": "kaimal"}[wind.gust_spectrum]
-        lines.append(
-            f'gusts = {{ spectrum = "{spectrum}", rms = {unit * wind.gust_speed!r}, '
-            f"length = {unit * wind.gust_length!r}, seed = {wind.gust_seed} }}"
-        )
-    return "\n".join(lines)
-
-
 def surroundings_of(scene, obstacles):
     """Returns the settings that the scene's bodies share. obstacles: those of obstacles.py."""
     settings, unit = scene.samara, metres_per_unit(scene)
@@ -133,7 +110,7 @@ def surroundings_of(scene, obstacles):
         fluid_density=fluid_density,
         fluid_viscosity=fluid_viscosity,
         current=tuple(unit * x for x in settings.current),
-        wind=wind_of(scene),
+        winds=winds_of(scene),
         gravity=tuple(scene.gravity) if scene.use_gravity else (0.0, 0.0, 0.0),
         ground=unit * settings.ground if settings.use_ground else None,
         obstacles=obstacles,
@@ -172,6 +149,7 @@ def request_of(o, surroundings, let_go=None):
         body_file=file,
         body_file_time=os.stat(file).st_mtime_ns if os.path.exists(file) else 0,
         density=body.density,
+        area_density=body.area_density,
         mass=body.mass_source,
         mass_given=_mass_of(body, unit),
         size=size,
@@ -179,6 +157,7 @@ def request_of(o, surroundings, let_go=None):
         loads=body.loads,
         drag_coefficient=body.drag_coefficient,
         lift_coefficient=body.lift_coefficient,
+        patches=body.patches,
         noise=body.noise,
         position=tuple(unit * x for x in location),
         orientation=rotation,

@@ -40,8 +40,9 @@ class SAMARA_PT_body(bpy.types.Panel):
             column = layout.column(align=True)
             column.prop(body, "drag_coefficient")
             column.prop(body, "lift_coefficient")
-        elif loads != "SURFACE":
+        else:
             layout.prop(body, "noise")
+        layout.prop(body, "patches")
         layout.prop(body, "velocity")
         layout.prop(body, "angular_velocity")
         layout.prop(body, "release")
@@ -76,6 +77,8 @@ def _draw_mass(layout, body, has_mass):
     layout.prop(body, "mass_source")
     if body.mass_source == "DENSITY" or (body.mass_source == "FILE" and not has_mass):
         layout.prop(body, "density")
+    if body.mass_source == "AREA":
+        layout.prop(body, "area_density")
     if body.mass_source == "MASS":
         column = layout.column()
         column.prop(body, "mass")
@@ -92,17 +95,45 @@ def _draw_wind(layout, wind):
     layout.prop(wind, "use_wind")
     if not wind.use_wind:
         return
-    layout.prop(wind, "wind_speed")
-    layout.prop(wind, "wind_direction")
+    keyed = layout.column()
+    keyed.use_property_decorate = True  # with a button for keys
+    keyed.prop(wind, "wind_speed")
+    keyed.prop(wind, "wind_direction")
     layout.prop(wind, "wind_profile")
     if wind.wind_profile != "NONE":
         layout.prop(wind, "wind_height")
         layout.prop(wind, "wind_roughness" if wind.wind_profile == "LOG" else "wind_exponent")
-    layout.prop(wind, "gust_speed")
+    keyed = layout.column()
+    keyed.use_property_decorate = True
+    keyed.prop(wind, "gust_speed")
     if wind.gust_speed > 0.0:
         layout.prop(wind, "gust_length")
         layout.prop(wind, "gust_spectrum")
         layout.prop(wind, "gust_seed")
+
+
+class SAMARA_PT_bake(bpy.types.Panel):
+    bl_label = "Mesh of the Bake"
+    bl_parent_id = "SAMARA_PT_body"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "physics"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and not context.object.samara.is_obstacle
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        body = context.object.samara
+        layout.prop(body, "thickness")
+        layout.prop(body, "keep")
+        row = layout.row()
+        row.active = not body.keep
+        row.prop(body, "triangles")
 
 
 class SAMARA_PT_surroundings(bpy.types.Panel):
@@ -131,4 +162,4 @@ class SAMARA_PT_surroundings(bpy.types.Panel):
         layout.prop(surroundings, "bodies_meet")
 
 
-CLASSES = (SAMARA_PT_body, SAMARA_PT_surroundings)
+CLASSES = (SAMARA_PT_body, SAMARA_PT_bake, SAMARA_PT_surroundings)

@@ -12,10 +12,26 @@ from bpy.props import (
 )
 
 from . import live
+from .ready_bodies import ready_body
+from .samara_library import SamaraError
 
 
 def _obstacles_changed(_, context):
     live.note_change(context.scene)
+
+
+def _body_file_changed(body, context):
+    """Takes up the density of a ready-baked body, and its fluid where it is the scene's first body."""
+    try:
+        ready = ready_body(body.body_file)
+    except SamaraError:
+        return  # shown in the panel
+    if ready is None:
+        return
+    if not body.is_property_set("density"):
+        body.density = ready.density
+    if not any(o.samara.body_file for o in context.scene.objects if o != body.id_data):
+        context.scene.samara.fluid = ready.fluid
 
 
 class SamaraBody(bpy.types.PropertyGroup):
@@ -23,8 +39,10 @@ class SamaraBody(bpy.types.PropertyGroup):
 
     body_file: StringProperty(
         name="Body File",
-        description="samara's body file NAME.body.h5: shape, added mass, tables. Its origin and axes are those of the object",
+        description="samara's body file NAME.body.h5: shape, added mass, tables; or a ready-baked body, such as samara:leaf. "
+        "Its origin and axes are those of the object",
         subtype="FILE_PATH",
+        update=_body_file_changed,
     )
     body_scale: FloatVectorProperty(
         description="The object's scale for which the body file was made", size=3, default=(1.0, 1.0, 1.0)
@@ -38,8 +56,12 @@ class SamaraBody(bpy.types.PropertyGroup):
         items=[
             ("FILE", "As Baked", "The mass in the body file; a uniform density if the file has none"),
             ("DENSITY", "Density", "A uniform density"),
+            ("AREA", "Area", "A mass by area, as of paper and leaves; objects of other sizes keep the thickness"),
             ("MASS", "Mass", "A mass, optionally with its centre and moments of inertia"),
         ],
+    )
+    area_density: FloatProperty(
+        name="Mass by Area", description="g/m^2 of half of the surface", default=80.0, min=0.001, soft_max=1000.0, precision=1
     )
     mass: FloatProperty(name="Mass", description="kg", default=0.001, min=1e-9, precision=6)
     use_center_of_mass: BoolProperty(name="Centre", description="Set the centre of mass; otherwise it is the centroid of the volume")
@@ -65,6 +87,12 @@ class SamaraBody(bpy.types.PropertyGroup):
     )
     drag_coefficient: FloatProperty(name="Drag", description="Drag coefficient", default=1.2, min=0.0)
     lift_coefficient: FloatProperty(name="Lift", description="Lift coefficient", default=0.6)
+    patches: IntProperty(
+        name="Patches",
+        description="Patches of the surface, each with the loads of its own velocity, for bodies that spin; "
+        "0: as the body file recommends, otherwise 1",
+        default=0, min=0, max=32
+    )
     noise: BoolProperty(
         name="Noise", description="Random loads from the turbulence of the wake", default=True
     )
@@ -97,6 +125,16 @@ class SamaraBody(bpy.types.PropertyGroup):
     friction: FloatProperty(
         name="Friction", description="Coulomb friction coefficient", default=0.5, min=0.0, soft_max=2.0,
         update=_obstacles_changed,
+    )
+    keep: BoolProperty(
+        name="Keep Triangles", description="Bake with the mesh's own triangles; otherwise samara meshes the shape again"
+    )
+    triangles: IntProperty(
+        name="Triangles", description="About how many the baked body has; 0: as many as the shape needs", default=0, min=0, max=1000000
+    )
+    thickness: FloatProperty(
+        name="Thickness", description="Makes an open sheet a body of this thickness, of which it is the middle; 0: the mesh is closed",
+        subtype="DISTANCE", default=0.0, min=0.0, precision=5, step=0.01
     )
     live: BoolProperty(description="Whether the object follows its simulation at every frame change")
     live_error: StringProperty(description="Why the object no longer follows its simulation")

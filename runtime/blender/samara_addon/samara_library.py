@@ -13,7 +13,7 @@ import numpy
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
 API_VERSION = 10
 
-LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE, LOADS_SURFACE = 0, 1, 2, 3
+LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE, LOADS_SURFACE, LOADS_OF_BODY = 0, 1, 2, 3, 4
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
 
 # Numbers of a pose: position 3, orientation 4 (w, x, y, z), velocity 3, angular velocity 3.

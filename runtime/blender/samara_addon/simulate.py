@@ -65,6 +65,10 @@ class _KeyedPath:
         turn = Quaternion(angular.normalized(), -frames_before * angular.length)
         return location - frames_before * moving, turn @ rotation
 
+    def leaves_simulated(self, frame):
+        """Whether the pose between two frames, counted from 0, is the simulated one."""
+        return len(self.before) <= frame and (self.returns is None or frame < self.returns - self.blend)
+
     def put_into(self, locations, rotations):
         """Inserts the poses by keys into the simulated poses (n, 3) and (n, 4)."""
         for i, (location, rotation) in enumerate(self.before):
@@ -155,16 +159,37 @@ def requests_of(context, objects):
 
 
 def insert_flights(context, objects, flights, paths):
-    """Writes keys at every frame of the scene's range; where an object follows its keys, they are kept, one per frame."""
-    scene = context.scene
+    """Writes keys at every frame of the scene's range; where an object follows its keys, they are kept, one per frame. Where a body
+    turns far between two frames, adds keys in between. Returns the number of these keys for each object."""
+    scene, counts = context.scene, []
     for o, flight in zip(objects, flights):
         if o.samara.live:
             live.go_off(o)
         locations, rotations = flight.locations().copy(), flight.rotations().copy()
-        if o.name in paths:
-            paths[o.name].put_into(locations, rotations)
-        keyframes.insert_poses(o, scene.frame_start, locations, continuous(rotations))
+        path = paths.get(o.name)
+        if path is not None:
+            path.put_into(locations, rotations)
+        between = [(frame, pose) for frame, pose in flight.between if path is None or path.leaves_simulated(frame)]
+        frames = numpy.concatenate((numpy.arange(len(locations)), [frame for frame, _ in between]))
+        if between:
+            poses = numpy.array([pose for _, pose in between])
+            order = frames.argsort()
+            frames = frames[order]
+            locations = numpy.concatenate((locations, poses[:, 0:3] / flight.request.surroundings.metres_per_unit))[order]
+            rotations = numpy.concatenate((rotations, poses[:, 3:7]))[order]
+        keyframes.insert_poses(o, scene.frame_start + frames, locations, continuous(rotations))
+        counts.append(len(between))
     scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
+    return counts
+
+
+def summary(frames, counts):
+    """Returns what was simulated, in one line. counts: of each object's keys between frames."""
+    text = f"{len(counts)} objects simulated over {frames} frames"
+    spinning = sum(count > 0 for count in counts)
+    if spinning == 0:
+        return text
+    return f"{text}; {sum(counts)} more keys between frames, for the rotations of {spinning} by more than 90 degrees"
 
 
 class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
@@ -183,9 +208,8 @@ class SAMARA_OT_simulate(JobOperator, bpy.types.Operator):
         return f"samara is simulating: {100.0 * self.job.progress():.0f} %"
 
     def finish(self, context):
-        insert_flights(context, self._objects, self.job.flights, self._ways)
-        frames = self.job.flights[0].request.surroundings.frames
-        self.report({"INFO"}, f"{len(self._objects)} objects simulated over {frames} frames")
+        counts = insert_flights(context, self._objects, self.job.flights, self._ways)
+        self.report({"INFO"}, summary(self.job.flights[0].request.surroundings.frames, counts))
         return {"FINISHED"}
 
 
@@ -224,6 +248,7 @@ class SAMARA_OT_copy_settings(bpy.types.Operator):
         "body_scale",
         "density",
         "mass_source",
+        "area_density",
         "mass",
         "use_center_of_mass",
         "center_of_mass",
@@ -233,6 +258,7 @@ class SAMARA_OT_copy_settings(bpy.types.Operator):
         "loads",
         "drag_coefficient",
         "lift_coefficient",
+        "patches",
         "noise",
         "velocity",
         "angular_velocity",

@@ -35,6 +35,14 @@ struct FluidForces {
     Wrench lift;      ///< the part of these loads across it, and their whole moment
     Wrench noise;     ///< the difference that the turbulence makes to all of them
 
+    /// Returns the forces between these and others, at a fraction from 0 to 1.
+    [[nodiscard]] FluidForces towards(const FluidForces& other, double fraction) const {
+        const auto between = [&](const Wrench& a, const Wrench& b) {
+            return (1.0 - fraction) * a + fraction * b;
+        };
+        return {between(buoyancy, other.buoyancy), between(inertia, other.inertia), between(drag, other.drag),
+                between(lift, other.lift), between(noise, other.noise)};
+    }
     /// Returns the sum.
     [[nodiscard]] Wrench total() const { return buoyancy + inertia + drag + lift + noise; }
 };

@@ -262,14 +262,14 @@ SixColumns NearFieldInverse::operator*(const SixColumns& columns) const {
 
 constexpr int most_solver_iterations = 100;
 constexpr int iterations_without_inverse = 8;
-constexpr std::size_t parts_a_piece = 64;
+constexpr std::size_t curved_panels_a_piece = 64;
 constexpr double open_surface = 0.02;  // closure error
 
 /// Returns -integral of f_a N for the node function of every node, N = (x cross n, n).
 SixColumns normal_moments(const CurvedPanels& panels, int threads) {
     const TriangleRule rule = triangle_rule(6);  // of the polynomials' own degree
     std::vector<Matrix6d> parts(panels.panels.size());
-    parallel_for(parts.size(), parts_a_piece, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_for(parts.size(), curved_panels_a_piece, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t j = begin; j < end; ++j) {
             parts[j].setZero();
             for (std::size_t i = 0; i < rule.points; ++i) {

@@ -45,7 +45,7 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("plot", "report"):  # which need matplotlib
+    if name in ("plot", "report", "datasets"):  # which need matplotlib, or xarray
         import importlib
         return importlib.import_module("." + name, __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

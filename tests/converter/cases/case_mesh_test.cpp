@@ -56,6 +56,7 @@ TEST_F(TwoBlocks, WithWallFunctionsItIsByTheTurbulentKineticEnergy) {
     EXPECT_NEAR(found.least, 0.2 * unit, 1e-9);
     EXPECT_NEAR(found.most, 0.4 * unit, 1e-9);
     EXPECT_NEAR(found.median, found.least, 1e-9);  // on two thirds of the area
+    EXPECT_NEAR(found.mean, (2.0 * found.least + found.most) / 3.0, 1e-9);
     EXPECT_EQ(found.below_30, 0.0);
 }
 

@@ -288,6 +288,65 @@ TEST_F(Bake, OfASmallSphereIsLaminarAndHasItsMeasuredDrag) {
     EXPECT_EQ(json["cases"][0]["turbulent_kinetic_energy"], 0.0);
 }
 
+TEST_F(Bake, AtGivenReynoldsNumbersHasTheMeasuredDragOfASphere) {
+    const fs::path file = write_body(test::sphere(0.01));
+    const test::ProgramRun run =
+        bake(fmt::format("{} -o out.body.h5 --quality smoke --reynolds-number 150,20 --json", file.string()));
+    ASSERT_EQ(run.status, 0) << run.error;
+    EXPECT_EQ(run.json()["reynolds_numbers"], nlohmann::json({150.0, 20.0}));
+    EXPECT_EQ(read_body_file(output_).tables->reynolds_numbers, (std::vector<double>{20.0, 150.0}));
+    for (const nlohmann::json& one : run.json()["cases"]) {
+        const double reynolds_number = one["reynolds_number"];
+        // Brown & Lawler (2003).
+        const double measured = 24.0 / reynolds_number * (1.0 + 0.150 * std::pow(reynolds_number, 0.681)) +
+                                0.407 / (1.0 + 8710.0 / reynolds_number);
+        EXPECT_NEAR(one["drag_coefficient"].get<double>(), measured, 0.12 * measured) << reynolds_number;
+    }
+}
+
+TEST_F(Bake, InAGivenFluidIsForTheTerminalSpeedThere) {
+    const std::string words = write_body(test::sphere(0.005)).string() +
+                              " -o out.body.h5 --quality preview --density 7800 --dry-run --json";
+    const double in_water = bake(words).json()["reynolds_numbers"][0];
+    const nlohmann::json glycerol = bake(words + " --fluid-density 1261 --fluid-viscosity 1.41").json();
+    const double speed = std::sqrt(2.0 * (7800.0 / 1261.0 - 1.0) * 9.81 * 4.0 / 3.0 * 0.005);
+    EXPECT_NEAR(glycerol["reynolds_numbers"][0].get<double>(), speed * 0.01 * 1261.0 / 1.41, 0.1);
+    EXPECT_EQ(bake(words + " --fluid-density 998.2 --fluid-viscosity 1.002e-3").json()["reynolds_numbers"][0],
+              in_water);
+}
+
+TEST_F(Bake, AtAGivenReynoldsNumberHasItInItsFallsToo) {
+    const nlohmann::json plan = bake(write_body(test::sphere(0.01)).string() +
+                                     " -o out.body.h5 --reynolds-number 700 --dry-run --json")
+                                    .json();
+    EXPECT_EQ(plan["reynolds_numbers"], nlohmann::json({700.0}));
+    ASSERT_EQ(plan["falls"].size(), 2u);
+    EXPECT_NEAR(plan["falls"][0]["reynolds_number"].get<double>(), 700.0, 1.0);
+}
+
+TEST_F(Bake, RejectsFluidsAndReynoldsNumbersThatMakeNoFlow) {
+    const std::string shape = write_body(test::sphere(0.01)).string() + " -o out.body.h5 --dry-run ";
+    const std::map<std::string, std::string> rejected = {
+        {"--fluid-density 1261", "--fluid-density is not enough"},
+        {"--fluid air --fluid-density 1261 --fluid-viscosity 1", "--fluid excludes"},
+        {"--reynolds-number 50,5e", "must be numbers from 0.01 to 1e7"},
+        {"--reynolds-number 50,50.01", "twice"},
+        {"--reynolds-number 50 --fluid-density 1261 --fluid-viscosity 1", "sets the viscosity"},
+        {"--reynolds-number 1e9", "must be numbers"}};
+    for (const auto& [words, message] : rejected) {
+        const test::ProgramRun run = bake(shape + words);
+        EXPECT_EQ(run.status, 1) << words;
+        EXPECT_THAT(run.error, HasSubstr(message));
+    }
+}
+
+TEST_F(Bake, NotesTheDragCrisis) {
+    const std::string words =
+        write_body(test::sphere(0.01)).string() + " -o out.body.h5 --quality preview --dry-run ";
+    EXPECT_THAT(bake(words + "--reynolds-number 3e5").error, HasSubstr("drag crisis"));
+    EXPECT_THAT(bake(words + "--reynolds-number 1e5").error, Not(HasSubstr("drag crisis")));
+}
+
 TEST_F(Bake, RejectsABodyAsDenseAsTheFluid) {
     const fs::path file = write_body(test::sphere(0.01));
     const test::ProgramRun run = bake(fmt::format("{} -o out.body.h5 --density 998.2", file.string()));
@@ -390,6 +449,8 @@ density = 2000
 loads = "none"
 turbulence = "none"
 )";
+    const test::ProgramRun planned = bake("scene.toml -o bodies --quality smoke --dry-run");
+    EXPECT_THAT(planned.output, testing::ContainsRegex("all 2 bodies: 1 cases and falls, .*disk\n$"));
     const test::ProgramRun run = bake("scene.toml -o bodies --quality smoke --json");
     ASSERT_EQ(run.status, 0) << run.error;
     ASSERT_EQ(run.json()["bodies"].size(), 2u);

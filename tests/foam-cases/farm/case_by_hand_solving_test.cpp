@@ -73,15 +73,20 @@ class CaseByHand : public testing::Test {
     }
     [[nodiscard]] std::string said() const { return read_bytes(folder_ / "said"); }
 
-    static void set_parameters(const fs::path& folder, const std::map<std::string, std::string>& values) {
-        std::string text = read_bytes(folder / "parameters");
+    static void set_parameters(const fs::path& folder, const std::map<std::string, std::string>& values,
+                               const char* file = "parameters") {
+        std::string text = read_bytes(folder / file);
         for (const auto& [name, value] : values) {
             const std::string before = text;
             text = std::regex_replace(text, std::regex(fmt::format("\n{} [^;]*;", name)),
                                       fmt::format("\n{} {};", name, value));
             ASSERT_NE(text, before) << name;
         }
-        std::ofstream(folder / "parameters") << text;
+        std::ofstream(folder / file) << text;
+    }
+    static void share_by_two(const fs::path& folder) {
+        set_parameters(folder, {{"numberOfSubdomains", "2"}, {"ranksAlong", "(2 1 1)"}},
+                       "system/decomposeParDict");
     }
 
     /// A folder with a tiny case around a sphere, made from the template as a user makes it.
@@ -151,8 +156,7 @@ TEST_F(CaseByHand, RunsEveryProgramOfOpenFoamByTheWordsOfItsContainer) {
     std::ofstream(container) << "#!/bin/sh\necho \"$1\" >> '" << (folder_ / "ran").string()
                              << "'\nexport WM_PROJECT_DIR=/usr/share/openfoam\nexec \"$@\"\n";
     fs::permissions(container, fs::perms::owner_all);
-    std::map<std::string, std::string> parameters = {{"ranks", "2"}, {"ranksAlong", "(2 1 1)"}};
-    set_parameters(flow, parameters);
+    share_by_two(flow);
     const std::vector<std::string> words = {"env", "SAMARA_OPENFOAM=" + container.string(), "./Allrun"};
     ASSERT_EQ(run_subprocess(words, folder_ / "said", flow), 0) << said();
     const std::string ran = read_bytes(folder_ / "ran");
@@ -180,7 +184,8 @@ TEST_F(CaseByHand, OnTheMeshOfAnotherKeepsThatMeshWhenItIsCleaned) {
     const Files of_first = files_in(first);
     const fs::path second = flow_case("second one");
     fs::create_directory_symlink("../../first/constant/polyMesh", second / "constant/polyMesh");
-    set_parameters(second, {{"startFrom", "first"}, {"ranks", "2"}, {"ranksAlong", "(2 1 1)"}});
+    set_parameters(second, {{"startFrom", "first"}});
+    share_by_two(second);
     const Files before = files_in(second);
     ASSERT_EQ(run(second, {"Allrun"}), 0) << said();
     EXPECT_THAT(read_bytes(second / "log.simpleFoam"), HasSubstr("nProcs : 2"));

@@ -32,8 +32,8 @@ class Case:
         with open(os.path.join(folder, file), "w") as out:
             out.write("# Time values\n" + "".join("\t".join(map(repr, row)) + "\n" for row in rows))
 
-    def judge(self, first=0):
-        return worst_quantity(self.folder.name, first, self.iterations, 0.01, True)
+    def judge(self, first=0, viscosity=1e-4):
+        return worst_quantity(self.folder.name, first, self.iterations, 0.01, True, viscosity=viscosity)
 
 
 class Stationarity(unittest.TestCase):
@@ -73,6 +73,11 @@ class Stationarity(unittest.TestCase):
     def test_an_absurd_force_is_a_divergence(self):
         with self.assertRaises(Diverged):
             Case(200, force=lambda i: 100.0).judge()
+
+    def test_the_drag_of_creeping_flow_is_none(self):
+        Case(200, force=lambda i: 240.0).judge(viscosity=10.0)
+        with self.assertRaises(Diverged):
+            Case(200, force=lambda i: 2400.0).judge(viscosity=10.0)
 
     def test_a_k_that_is_not_positive_is_a_divergence(self):
         with self.assertRaises(Diverged):

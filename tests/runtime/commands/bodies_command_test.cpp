@@ -53,6 +53,24 @@ class BodiesCommand : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
+// The figures of docs/how-to/judge-a-bake.md: Brown and Lawler (2003), Hoerner (1965).
+TEST_F(BodiesCommand, ThoseThatComeWithSamaraHaveTheDragOfTheLiteratureWithinAFifth) {
+    const std::string ready = std::string(SAMARA_SOURCE_DIRECTORY) + "/runtime/bodies/";
+    const auto drag = [&](const std::string& name, const char* reynolds_number) {
+        const nlohmann::json entry = run({"info", ready + name + ".body.h5", "--direction", "0,0,1",
+                                          "--reynolds-number", reynolds_number, "--json"})
+                                         .json();
+        return entry["drag_coefficient_on_projected_area"].get<double>();
+    };
+    EXPECT_NEAR(drag("sphere", "3770"), 0.44, 0.005);
+    EXPECT_NEAR(drag("sphere", "11300"), 0.41, 0.005);
+    EXPECT_NEAR(drag("sphere", "37700"), 0.39, 0.005);
+    EXPECT_NEAR(drag("sphere", "113000"), 0.38, 0.005);
+    EXPECT_NEAR(drag("sphere", "113000"), 0.466, 0.2 * 0.466);
+    EXPECT_NEAR(drag("cube", "17600"), 1.05, 0.05 * 1.05);
+    EXPECT_NEAR(drag("disc", "16500"), 1.17, 0.05 * 1.17);
+}
+
 TEST_F(BodiesCommand, ListsShapeSizeFluidReynoldsNumbersQualityErrorAndPurpose) {
     const ProgramRun text = run({"bodies"});
     ASSERT_EQ(text.status, 0) << text.error;

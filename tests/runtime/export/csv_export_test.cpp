@@ -69,6 +69,28 @@ TEST(CsvExport, HasARowForEachRunBodyCopyAndFrame) {
     EXPECT_EQ(std::stod(row[15]), 10.0);
 }
 
+TEST(CsvExport, ForcesOfAMotionThatHasThemAreColumns) {
+    const TemporaryFolder folder;
+    Motion motion = motion_with_runs_and_copies();
+    motion.has_forces = true;
+    BodyMotion& body = motion.bodies[0];
+    body.forces.resize(body.poses.size());
+    body.forces[motion.index(body, 1, 50, 2)].drag = {Vector3d(4.0, 5.0, 6.0), Vector3d(1.0, 2.0, 3.0)};
+    write_csv(folder / "motion.csv", motion);
+    const auto rows = rows_of(folder / "motion.csv");
+    const auto column = std::find(rows[0].begin(), rows[0].end(), "drag_moment_x") - rows[0].begin();
+    ASSERT_EQ(rows[0].size(), 17U + 30U);
+    bool found = false;
+    for (const auto& row : rows) {
+        if (row[0] != "1" || row[2] != "2" || row[3] != "0.5") continue;
+        found = true;
+        for (int i = 0; i < 6; ++i) {
+            EXPECT_EQ(std::stod(row[static_cast<std::size_t>(column + i)]), i + 1.0);
+        }
+    }
+    EXPECT_TRUE(found);
+}
+
 TEST(CsvExport, VelocityIsTheDerivativeOfThePosition) {
     const TemporaryFolder folder;
     write_csv(folder / "motion.csv", motion_with_runs_and_copies());

@@ -159,6 +159,32 @@ TEST(Page, ShowsTheColorsOfTheCopies) {
     EXPECT_LT(found["hues"][2], 0.1 * found["hues"][1].get<double>());
 }
 
+TEST(Page, ShowsTheForcesOnTheSelectedBodyAsArrows) {
+    ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
+    const TemporaryFolder folder;
+    Motion motion = test::motion_of(test::wander, 2.0);
+    write_page(folder / "without.html", motion, 0, "without", "");
+    EXPECT_EQ(look_at(folder / "without.html", 1.0, folder)["arrows"],
+              json::parse("[null, null, null, null]"));
+    motion.has_forces = true;
+    BodyMotion& body = motion.bodies[0];
+    body.forces.resize(body.poses.size());
+    for (FluidForces& forces : body.forces) {
+        forces.drag.force = Vector3d(0.0, 0.0, 2.0);
+        forces.lift.force = Vector3d(0.0, 1.0, 0.0);
+    }
+    write_page(folder / "forces.html", motion, 0, "forces", "");
+    const json found = look_at(folder / "forces.html", 1.0, folder);
+    const json& drag = found["arrows"][0];
+    const json& lift = found["arrows"][1];
+    EXPECT_NEAR(drag["direction"][2], 1.0, 1e-6);
+    EXPECT_NEAR(lift["direction"][1], 1.0, 1e-6);
+    EXPECT_NEAR(drag["length"].get<double>(), 2.0 * lift["length"].get<double>(), 1e-6);
+    EXPECT_NEAR(drag["place"][0], found["poses"][0][0]["position"][0], 1e-6);
+    EXPECT_EQ(found["arrows"][2], nullptr);
+    EXPECT_EQ(found["faults"], json::array());
+}
+
 TEST(Page, FollowsABodyThatWouldBeTooSmallToSee) {
     ASSERT_TRUE(has_page()) << "configure with -DSAMARA_PAGE=ON";
     const TemporaryFolder folder;

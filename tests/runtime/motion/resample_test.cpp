@@ -40,6 +40,21 @@ Errors errors_from(double frame_rate, const std::function<Pose(double)>& exact) 
     return errors;
 }
 
+TEST(Resample, ForcesChangeEvenlyBetweenTwoFrames) {
+    Motion motion = test::motion_of([](double t) { return test::flutter(t, 1.0, 0.5, 0.2); }, 1.0, 10.0);
+    motion.has_forces = true;
+    BodyMotion& body = motion.bodies[0];
+    body.forces.resize(body.poses.size());
+    for (std::size_t i = 0; i < body.forces.size(); ++i) {
+        body.forces[i].lift.force = Vector3d(0.0, 0.0, static_cast<double>(i));
+    }
+    const Motion fine = resampled(motion, 20.0);
+    ASSERT_EQ(fine.bodies[0].forces.size(), fine.bodies[0].poses.size());
+    EXPECT_EQ(fine.bodies[0].forces[4].lift.force.z(), 2.0);
+    EXPECT_NEAR(fine.bodies[0].forces[5].lift.force.z(), 2.5, 1e-9);
+    EXPECT_EQ(looped(motion, 0, 0.5).bodies[0].forces.size(), looped(motion, 0, 0.5).bodies[0].poses.size());
+}
+
 TEST(Resample, IsOfTheFourthOrderInPlaceAndTurnAndOfTheThirdInTheirRates) {
     const Errors coarse = errors_from(30.0, test::wander);
     const Errors fine = errors_from(60.0, test::wander);

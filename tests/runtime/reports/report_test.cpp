@@ -99,6 +99,13 @@ TEST(BakeVerdict, IsForNothingOfATrialAndOfAnUnsoundFile) {
     EXPECT_THAT(verdict.good_for, IsEmpty());
 }
 
+TEST(BakeVerdict, NotesTheDragCrisis) {
+    Body body = well_baked(0.08);
+    EXPECT_THAT(of_grade(judge_bake(body), Grade::limited), Not(Contains("drag crisis")));
+    body.tables->reynolds_numbers.back() = 2.5e5;
+    EXPECT_THAT(of_grade(judge_bake(body), Grade::limited), Contains("drag crisis"));
+}
+
 TEST(BakeVerdict, HeedsWhatTheCasesTell) {
     const BakeVerdict verdict = judge_bake(well_baked(0.08), {{Grade::bad, "falls", "differ by half"}});
     EXPECT_EQ(verdict.grade, Grade::limited);

@@ -27,7 +27,7 @@ def bake(program, quality):
 
     from samara_addon import samara_library
     from samara_addon.bake import mesh_corners
-    from samara_addon.bake_job import BakeJob, bake_command
+    from samara_addon.bake_job import BakeJob
 
     found["file"] = o.samara.body_file
     body = samara_library.body_of_file(o.samara.body_file)
@@ -40,7 +40,7 @@ def bake(program, quality):
     bpy.context.object.data.clear_geometry()
     found["empty_of_faces"] = run(bpy.ops.samara.bake, quality=quality)
     # A bake that is cancelled ends at once.
-    job = BakeJob(["sleep", "600"])
+    job = BakeJob([["sleep", "600"]])
     job.cancel()
     found["cancelled"] = job.cancelled
     return found
@@ -77,7 +77,7 @@ def crowd(file, count, frames):
     from samara_addon.simulate import requests_of
 
     start, start_cpu = time.perf_counter(), time.process_time()
-    FlightJob(requests_of(bpy.context, objects)).wait()
+    FlightJob(requests_of(bpy.context, objects)[0]).wait()
     flown, flown_cpu = time.perf_counter(), time.process_time()
     assert run(bpy.ops.samara.simulate) == ""
     end, end_cpu = time.perf_counter(), time.process_time()

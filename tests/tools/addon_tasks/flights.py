@@ -291,9 +291,9 @@ def cache(file, folder):
     flown = []
     fleet = flight.Fleet.__init__
 
-    def counted(self, surroundings, requests, refused):
+    def counted(self, surroundings, requests, *others):
         flown.extend(request.name for request in requests)
-        fleet(self, surroundings, requests, refused)
+        fleet(self, surroundings, requests, *others)
 
     flight.Fleet.__init__ = counted
     bpy.ops.wm.open_mainfile(filepath=os.path.join(folder, "scene.blend"))

@@ -3,7 +3,7 @@
 import bpy
 import mathutils
 
-from .steps import clear_keys, matrices, run, scene, select, starts, three_bodies
+from .steps import add_bodies, clear_keys, empty_scene, matrices, run, scene, select, starts, three_bodies
 
 
 def bodies_over_roof(file):
@@ -118,4 +118,41 @@ def lift(file):
     return found
 
 
-TASKS = (roof, lift)
+def keyed_wind(file):
+    """A body in a wind whose speed keys raise: by keys, live, and with other keys; and what may not be keyed."""
+    empty_scene()
+    scene.render.fps, scene.render.fps_base = 24, 1.0
+    scene.frame_start, scene.frame_end = 1, 25
+    (o,) = add_bodies(file, 1, density=1600.0)
+    o.samara.noise = False
+    settings = scene.samara
+    settings.use_wind, settings.wind_direction = True, (1.0, 0.0, 0.0)
+    for frame, speed in ((1, 0.0), (25, 1.2)):
+        settings.wind_speed = speed
+        settings.keyframe_insert("wind_speed", frame=frame)
+    curve = scene.animation_data.action.fcurves[0]
+    for point in curve.keyframe_points:
+        point.interpolation = "LINEAR"
+    found = {"error": run(bpy.ops.samara.simulate)}
+    frames = range(1, 26)
+    found["keyed"] = matrices([o], frames)[o.name]
+    clear_keys([o])
+    scene.frame_set(1)
+    o.matrix_world = mathutils.Matrix(found["keyed"][0])
+    found["live_error"] = run(bpy.ops.samara.live)
+    found["live"] = matrices([o], reversed(frames))[o.name][::-1]
+    curve.keyframe_points[1].co[1] = 0.3
+    found["live_slower"] = matrices([o], [25])[o.name][0]
+    settings.gust_speed = 0.1
+    scene.frame_set(2)
+    found["gusts"] = o.samara.live_error
+    settings.gust_speed = 0.0
+    settings.keyframe_insert("gust_length", frame=1)
+    found["length"] = run(bpy.ops.samara.simulate)
+    scene.animation_data_clear()
+    settings.driver_add("wind_speed")
+    found["driver"] = run(bpy.ops.samara.simulate)
+    return found
+
+
+TASKS = (roof, lift, keyed_wind)

@@ -106,6 +106,11 @@ TEST(DensityWarning, NamesBothDensitiesAndTheRemedyOnEitherSide) {
     EXPECT_THAT(asked.warning(4.0).text, HasSubstr("identified at 2 times"));
 }
 
+TEST(DragCrisisWarning, BeginsWhereTheDragOfASphereFalls) {
+    EXPECT_EQ(drag_crisis_warning(1.9e5), "");
+    EXPECT_THAT(drag_crisis_warning(2e5), AllOf(HasSubstr("2e+05"), HasSubstr("drag crisis")));
+}
+
 TEST(DensityWarning, ThereIsNoneWhereTheCoefficientsAreNotFlownOrTheFallsNotKnown) {
     Asked asked;
     asked.scene_body.dynamic = Dynamic::by_default;

@@ -85,7 +85,7 @@ TEST_F(HelpfulWords, OfAMotionInAnotherFormatNameTheCommandThatWritesIt) {
 
 TEST_F(HelpfulWords, OfASearchWhereNothingIsDrawnComeAtOnceAndSayWhatToAdd) {
     expect_rejection({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "10000000"},
-                     "does not depend on the seed; give the body a count with a spread");
+                     "does not depend on the seed; give a range (--speed");
     EXPECT_EQ(run({"search", "scene.toml", "--target", "0,0,0,1", "--body", "a", "--tries", "1"}).status, 0);
 }
 

@@ -266,6 +266,7 @@ TEST(CObstacle, HasANameOfItsOwnAndBodiesStartAndAreOutsideOfIt) {
     group.position[2] = 0.1;
     add(simulation, body, group);
     top.obstacle.name = "shelf";
+    top.obstacle.position[2] = 0.1;
     EXPECT_EQ(CALL(samara_simulation_add_obstacle, simulation.get(), &top.obstacle, nullptr),
               SAMARA_INVALID_ARGUMENT);
     EXPECT_THAT(error.text(), HasSubstr("is inside obstacle 'shelf'"));
@@ -313,7 +314,9 @@ TEST(CObstacle, ThatWasRemovedIsPartOfAState) {
     const CallersObstacle top(table_top());
     const SimulationPointer one = simulation_with(top.obstacle);
     const SimulationPointer other = simulation_with(top.obstacle);
-    for (const SimulationPointer* simulation : {&one, &other}) add(*simulation, body, lying_group());
+    samara_body_group group = lying_group();
+    group.position[2] = 0.1;
+    for (const SimulationPointer* simulation : {&one, &other}) add(*simulation, body, group);
     Text error;
     std::vector<char> state(samara_state_size(one.get()));
     ASSERT_EQ(CALL(samara_get_state, one.get(), state.data(), state.size()), SAMARA_OK);

@@ -154,7 +154,8 @@ TEST(WindField, IsTheSumOfItsParts) {
     only_gusts.profile.reset();
     only_gusts.vortices.clear();
     only_gusts.fans.clear();
-    const Vector3d sum = there(field_of(profile(WindProfile::Law::logarithmic)), place).velocity +
+    const Vector3d uniform = only_gusts.velocity;  // which is the profile's in the whole
+    const Vector3d sum = -uniform + there(field_of(profile(WindProfile::Law::logarithmic)), place).velocity +
                          there(field_of(only_gusts), place).velocity +
                          there(field_of(vortex(WindVortex::Core::lamb_oseen)), place).velocity +
                          there(field_of(vortex(WindVortex::Core::rankine)), place).velocity +
