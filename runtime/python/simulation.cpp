@@ -19,11 +19,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
+#include "samara/commands/shared/scene_bodies.hpp"
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/numbers.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/formats/toml_table.hpp"
 #include "samara/scene/obstacle_table.hpp"
+#include "samara/scene/scene_file.hpp"
 #include "samara/scene/scene_simulation.hpp"
 #include "samara/scene/wind_table.hpp"
 
@@ -133,6 +135,27 @@ class LiveSimulation {
             own = {simulation_->mass(index), simulation_->center_of_mass(index), simulation_->inertia(index)};
         });
         return own;
+    }
+
+    void add(const py::dict& keys, const std::filesystem::path& folder) {
+        py::dict settings;
+        settings["duration"] = 1.0;  // which every scene has
+        py::list bodies;
+        bodies.append(keys);
+        py::dict values;
+        values["scene"] = settings;
+        values["body"] = bodies;
+        const std::string text = toml_text(values, "body");
+        const bool has_start = keys.contains("start");
+        change_simulation([&] {
+            Scene scene = read_scene_text(text, "body", folder);
+            SceneBody& body = scene.bodies.front();
+            if (body.models_auto) throw RaisedInputError("models: give the models of a body that is added");
+            const std::vector<LoadedBody> loaded = load_scene_bodies(scene, "");
+            if (!has_start) body.start = simulation_->time();
+            const std::size_t first = simulation_->add(loaded.front(), body, body, body.name);
+            groups_.push_back({body.name, body.count, first});
+        });
     }
 
     void add_obstacle(const py::dict& keys, const std::filesystem::path& folder) {
@@ -472,6 +495,10 @@ void bind_simulation(py::module_& module) {
              "Returns the mass (kg), the centre of mass (m, from the shape's origin, shape axes, shape (3,)) "
              "and the inertia about it (kg m^2, shape axes, shape (3, 3)) of the body alone, without added "
              "mass.")
+        .def("add", &LiveSimulation::add, py::arg("body"), py::kw_only(), py::arg("folder") = ".",
+             "Adds a body with all its copies, from a dict with the keys of a [[body]]; by default it starts "
+             "now. It may have an emitter, which may move. Raises InputError where the name is taken, or a "
+             "copy starts inside an obstacle.")
         .def("add_obstacle", &LiveSimulation::add_obstacle, py::arg("obstacle"), py::kw_only(),
              py::arg("folder") = ".",
              "Adds an obstacle now, from a dict with the keys of an [[obstacle]]; paths are relative to "

@@ -163,6 +163,20 @@ class LiveFlights(unittest.TestCase):
         with self.assertRaisesRegex(samara.Error, "finite"):
             self.simulation.set_ground(math.inf)
 
+    def test_a_body_with_an_emitter_is_added_in_flight(self):
+        self.simulation.advance(0.1)
+        roof = {"shape": str(ROOT / "docs/scenes/roof.obj"), "position": [0, 0, 3], "offset": 0.1}
+        self.simulation.add({"name": "oak", "shape": "samara:oak-leaf", "count": 3, "emitter": roof})
+        self.assertEqual(self.simulation.names, ["leaf", "oak"])
+        before = self.simulation.poses("oak").position
+        self.assertTrue((before[..., 2] > 3.0).all())
+        self.simulation.advance(0.5)
+        self.assertTrue((self.simulation.poses("oak").position[..., 2] < before[..., 2] - 0.1).all())
+        with self.assertRaisesRegex(samara.Error, "already has the name 'oak'"):
+            self.simulation.add({"name": "oak", "shape": "samara:oak-leaf"})
+        with self.assertRaisesRegex(samara.Error, "did you mean 'count'"):
+            self.simulation.add({"name": "elm", "shape": "samara:oak-leaf", "cuont": 3})
+
     def test_an_obstacle_added_in_flight_bears_bodies_until_it_is_removed(self):
         self.simulation.advance(0.1)
         below = self.simulation.poses("leaf").position[..., 2].min() - 0.3
