@@ -248,7 +248,8 @@ class Stage {
     /// Returns the farthest that a point of any copy is from the shape's origin (m).
     [[nodiscard]] double reach_of(const BodyMotion& body) const {
         double reach = 0.0;
-        const auto& shown = body.display != nullptr ? body.display->positions : body.surface.vertices;
+        const DisplayMesh* display = body.display.get();
+        const auto& shown = display == nullptr ? body.surface.vertices : display->positions;
         for (const Vector3d& vertex : shown) reach = std::max(reach, vertex.norm());
         double largest = body.size(run_, 0);
         for (int copy = 1; copy < body.copies; ++copy) largest = std::max(largest, body.size(run_, copy));

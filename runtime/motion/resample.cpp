@@ -130,6 +130,7 @@ Motion resampled(const Motion& motion, double frame_rate) {
             fmt::format("{} frames per second give too many frames; lower the frame rate", frame_rate));
     }
     std::vector<double> times;
+    times.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < static_cast<int>(count); ++i) times.push_back(begin + i / frame_rate);
     Motion result = sampled_at(motion, times);
     result.frame_rate = frame_rate;
