@@ -1,4 +1,4 @@
-/* What the examples of docs/how-to/other-engines.md share: ellipsoids let go in water, in C99 and C++. */
+/* What falls in docs/examples/bullet_fall.cpp: bodies let go in water. */
 #ifndef WATER_H
 #define WATER_H
 

@@ -27,7 +27,15 @@ bodies, the C interface (libsamara.so, samara.h) and the C++ library.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "python3-matplotlib, python3-jinja2")
 # For programs in C++ that find_package(samara).
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
-  "samara-baking, libeigen3-dev, libhdf5-dev, libfmt-dev, libhwy-dev, libtinygltf-dev, libtomlplusplus-dev, nlohmann-json3-dev")
+  "samara-baking, samara-mujoco, libeigen3-dev, libhdf5-dev, libfmt-dev, libhwy-dev, libtinygltf-dev, libtomlplusplus-dev, nlohmann-json3-dev")
+
+if(TARGET samara_mujoco)
+  list(APPEND CPACK_COMPONENTS_ALL mujoco)
+  set(CPACK_DEBIAN_MUJOCO_PACKAGE_NAME samara-mujoco)
+  set(CPACK_COMPONENT_MUJOCO_DESCRIPTION "The fluid for bodies of MuJoCo, by the model's XML: libsamara-mujoco.so.")
+  set(CPACK_DEBIAN_MUJOCO_PACKAGE_DEPENDS "samara-runtime (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/runtime)  # of libsamara.so, which another package holds
+endif()
 
 if(TARGET samara_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
