@@ -68,7 +68,7 @@ MujocoBody::MujocoBody(const Scene& scene, const Motion& reference, int integrat
         throw Error(fmt::format("{}: the body has no uniform density", scene.file.string()));
     }
     const double density = *given.mass.density;
-    const Body body = load_body(given.shape, given.scale);
+    const Body body = load_body(given.shape, reading_of(given));
     const Matrix3d axes = principal_axes(body.moments);
     axes_ = Quaterniond(axes);
     turn_ = given.orientation * axes_;

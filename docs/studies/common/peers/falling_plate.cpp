@@ -31,7 +31,7 @@ class FallingPlate : public PeerBody {
             throw Error(fmt::format("{}: the plate's equations know bodies of uniform density in still fluid",
                                     scene.file.string()));
         }
-        const Body body = load_body(given.shape, given.scale);
+        const Body body = load_body(given.shape, reading_of(given));
         const Vector3d up = -scene.gravity.normalized();
         const Vector3d thin = principal_axes(body.moments).col(0);
         Vector3d normal = given.orientation * thin;

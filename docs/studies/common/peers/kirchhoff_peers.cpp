@@ -43,7 +43,7 @@ class KirchhoffPeer : public PeerBody {
           loads_(loads),
           words_(std::move(words)) {
         const SceneBody& given = scene.bodies.front();
-        Body body = load_body(given.shape, given.scale);
+        Body body = load_body(given.shape, reading_of(given));
         immersed_ = without_loads(given, scene.fluid, body);
         start_ = initial_state(given, immersed_.center_of_mass, {.gravity = scene.gravity},
                                Noise(scene.seed, immersed_.name, 0, 0));
