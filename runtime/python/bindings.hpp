@@ -78,12 +78,14 @@ void with_file_of(const std::string& name, const py::bytes& bytes,
                   const std::function<void(const std::filesystem::path&)>& read);
 
 /// Lets Python pickle and copy an object that never changes: a copy is the object itself, and a pickle what
-/// `arguments` returns, from which `make` makes it again.
+/// `arguments` returns, from which the function `make` of the Python module `from` makes it again.
 template <typename Class, typename Arguments>
-void make_pickled(Class& bound, const py::object& make, const Arguments& arguments) {
+void make_pickled(Class& bound, const char* from, const char* make, const Arguments& arguments) {
     bound
         .def("__reduce__",
-             [make, arguments](const py::object& self) { return py::make_tuple(make, arguments(self)); })
+             [from, make, arguments](const py::object& self) {
+                 return py::make_tuple(py::module_::import(from).attr(make), arguments(self));
+             })
         .def("__copy__", [](const py::object& self) { return self; })
         .def(
             "__deepcopy__", [](const py::object& self, const py::dict& /*memo*/) { return self; },

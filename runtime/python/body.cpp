@@ -76,7 +76,7 @@ void bind_body(py::module_& module) {
             return result;
         },
         py::arg("bytes"));
-    make_pickled(body, module.attr("_body_of_bytes"), [](const py::object& self) {
+    make_pickled(body, "samara", "_unpickled_body", [](const py::object& self) {
         return py::make_tuple(bytes_of_file("pickled.body.h5", [&](const std::filesystem::path& file) {
             const auto& pickled = self.cast<const Body&>();
             const py::gil_scoped_release others_go_on;

@@ -278,7 +278,7 @@ void bind_body_motion(py::module_& module) {
         module, "BodyMotion",
         "A body of a motion with all its runs, frames and copies. Arrays are read-only views, which keep the "
         "motion alive.");
-    make_pickled(body_motion, py::module_::import("operator").attr("getitem"), [](const py::object& self) {
+    make_pickled(body_motion, "operator", "getitem", [](const py::object& self) {
         const auto& pickled = self.cast<const BodyOfMotion&>();
         return py::make_tuple(FlownMotion{pickled.motion, nullptr}, pickled.body().name);
     });
@@ -372,7 +372,7 @@ void bind_motion(py::module_& module) {
             return result;
         },
         py::arg("bytes"));
-    make_pickled(motion, module.attr("_motion_of_bytes"), [](const py::object& self) {
+    make_pickled(motion, "samara", "_unpickled_motion", [](const py::object& self) {
         const auto& pickled = self.cast<const FlownMotion&>();
         return py::make_tuple(
             bytes_of_file("pickled.h5", [&](const std::filesystem::path& file) { write(pickled, file); }));

@@ -17,7 +17,8 @@ a ValueError too; that of a file that cannot be read or written is a FileError, 
 import os as _os
 from typing import Any, Callable, Optional, Union
 
-from ._samara import Body, BodyMotion, Error, FileError, Simulation, InputError, Motion, Poses, Scene, __version__, compare, fly as _fly, ready_bodies
+from ._samara import (Body, BodyMotion, Error, FileError, Simulation, InputError, Motion, Poses, Scene, __version__,
+                      _body_of_bytes, _motion_of_bytes, compare, fly as _fly, ready_bodies)
 from .programs import bake, plan
 
 __all__ = ["Body", "BodyMotion", "Error", "FileError", "Simulation", "InputError", "Motion", "Poses", "Scene", "bake", "compare",
@@ -42,6 +43,15 @@ def simulate(scene: Union[Scene, dict[str, Any], str, "_os.PathLike[str]"], *, r
         scene = Scene.read(scene)
     return _fly(scene, runs=runs, seed=seed, step=step, threads=threads, bodies=bodies, forces=forces,
                 progress=progress)
+
+
+# Pickles name functions of Python: those of the compiled module cannot be pickled.
+def _unpickled_motion(data: bytes) -> Motion:
+    return _motion_of_bytes(data)
+
+
+def _unpickled_body(data: bytes) -> Body:
+    return _body_of_bytes(data)
 
 
 def __getattr__(name: str) -> Any:

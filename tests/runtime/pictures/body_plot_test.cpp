@@ -165,7 +165,7 @@ TEST_F(PlotOfBodies, RefusesWhatTheFileDoesNotHold) {
     };
     rejected({"bare.body.h5", "-o", "no.svg"}, "has no tables to draw");
     rejected({"leaf.body.h5", "-o", "no.svg", "--kind", "strip"}, "take polars, sphere or convergence");
-    rejected({"tumble.h5", "-o", "no.svg", "--kind", "polars"}, "take strip, phase or landing");
+    rejected({"tumble.h5", "-o", "no.svg", "--kind", "polars"}, "take strip, phase, landing or forces");
     rejected({"leaf.body.h5", "-o", "no.svg", "--run", "1"}, "applies to a motion");
 }
 

@@ -50,7 +50,7 @@ TEST(BodyCheck, TheReadyBakedBodiesPass) {
         EXPECT_NO_THROW((void)read_body_file(entry.path())) << entry.path();
         ++bodies;
     }
-    EXPECT_EQ(bodies, 8);
+    EXPECT_EQ(bodies, 10);
 }
 
 TEST(BodyCheck, AddedMassThatNoBodyHasIsRefused) {

@@ -79,7 +79,7 @@ TEST(ImmersedBody, RefusesAMassThatIsNone) {
     Matrix3d lopsided = Matrix3d::Identity();
     lopsided(0, 1) = 0.5;
     expect_rejected({
-        {"density or mass", [&](Given& g) { g.scene_body.mass = {}; }},
+        {"density, mass or area_density", [&](Given& g) { g.scene_body.mass = {}; }},
         {"center_of_mass", [&](Given& g) { by_mass(g).center_of_mass = off; }},
         {"inertia", [&](Given& g) { by_mass(g).inertia = Matrix3d::Constant(infinity); }},
         {"inertia", [&](Given& g) { by_mass(g).inertia = lopsided; }},
