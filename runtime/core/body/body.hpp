@@ -82,8 +82,9 @@ struct ShapeError {
 };
 
 /// Returns the relative error of the added mass that `error` may cause: the greater of 5/3 of the change of
-/// volume or of the faceting, times 1.5 of the share of the displaced volume in that and the mean of the added
-/// masses `tensor`, at most 1; and the volume of the mean distance times the surface area, relative to both.
+/// volume or of the faceting, times 1.5 of the share of the displaced volume in that and the mean of the
+/// added masses `tensor`, at most 1; and the volume of the mean distance times the surface area, relative to
+/// both.
 double tensor_error_of(const ShapeError& error, const VolumeMoments& moments, const Matrix6d& tensor);
 
 /// All that a body file holds. Each program adds a part: `samara mesh` the first six, `samara kirchhoff` two,

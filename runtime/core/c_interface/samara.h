@@ -317,8 +317,9 @@ typedef struct samara_obstacle {
 SAMARA_API samara_status samara_default_obstacle(samara_obstacle* obstacle, size_t size, char* error,
                                                  size_t error_size);
 
-/* Adds an obstacle: since version 10 at any time, before only before all bodies. Obstacles are numbered from 0 in the order in which they are added;
- * *index (may be null) is the number of the new one. A body that starts or is inside of it is an error. */
+/* Adds an obstacle: since version 10 at any time, before only before all bodies. Obstacles are numbered from
+ * 0 in the order in which they are added; *index (may be null) is the number of the new one. A body that
+ * starts or is inside of it is an error. */
 SAMARA_API samara_status samara_simulation_add_obstacle(samara_simulation* simulation,
                                                         const samara_obstacle* obstacle, size_t* index,
                                                         char* error, size_t error_size);

@@ -292,8 +292,7 @@ TEST_F(SceneFile, AMissingFileOrKeyIsNamed) {
 
 TEST_F(SceneFile, ContradictionsAreRefused) {
     EXPECT_THAT(rejection(with_body("density = 1\nmass = 1")), HasSubstr("one of the two"));
-    EXPECT_THAT(rejection(with_body("density = 1\ninertia = [1, 1, 1]")),
-                HasSubstr("give mass instead"));
+    EXPECT_THAT(rejection(with_body("density = 1\ninertia = [1, 1, 1]")), HasSubstr("give mass instead"));
     EXPECT_THAT(rejection(with_body("center_of_mass = [0, 0, 0]")), HasSubstr("give mass too"));
     EXPECT_THAT(rejection(with_body("density = 1\ndrag_coefficient = 1")),
                 HasSubstr("loads = \"coefficients\""));
