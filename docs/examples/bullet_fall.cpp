@@ -4,6 +4,8 @@
 //   c++ bullet_fall.cpp $(pkg-config --cflags --libs samara bullet) -o bullet-fall
 //   ./bullet-fall ellipsoid.body.h5 disc.body.h5
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -137,7 +139,7 @@ void lie_down(const samara_body* disc) {
 
 }  // namespace
 
-int main(int count, char** words) {
+int main(int count, char** words) try {
     if (count != 3) {
         std::fprintf(stderr, "Usage: bullet-fall ellipsoid.body.h5 disc.body.h5\n");
         return 1;
@@ -154,4 +156,7 @@ int main(int count, char** words) {
     samara_body_free(ellipsoid);
     samara_body_free(disc);
     return 0;
+} catch (const std::exception& caught) {
+    std::fprintf(stderr, "bullet-fall: %s\n", caught.what());
+    return 1;
 }

@@ -182,7 +182,7 @@ class BulletFluid {
         const btMatrix3x3& turn = body.getWorldTransform().getBasis();
         const double* j = member.own.inertia;
         btMatrix3x3 inertia;
-        for (int row = 0; row < 3; ++row) inertia[row] = vector_of(j + 3 * row);
+        for (int row = 0; row < 3; ++row) inertia[row] = vector_of(j + std::ptrdiff_t{3} * row);
         inertia = turn * inertia * turn.transpose();
         Matrix whole{};
         for (std::size_t row = 0; row < 6; ++row) {
