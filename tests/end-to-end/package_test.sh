@@ -28,7 +28,7 @@ for package in samara-runtime openfoam snakemake libgmsh; do
 done
 dpkg-deb -f "$core" Depends | grep -qE 'toml|tinygltf|samara' && fail "the core depends on more than it needs"
 dpkg-deb -f "$runtime" Depends | grep -q 'samara-core (=' || fail "the runtime does not depend on the core"
-dpkg-deb -c "$core" | grep -q 'include/samara_bullet.hpp$' || fail "the core holds no samara_bullet.hpp"
+dpkg-deb -c "$core" | grep 'include/samara_bullet.hpp$' >/dev/null || fail "the core holds no samara_bullet.hpp"
 dpkg-deb -f "$core" Depends | cat - <(dpkg-deb -f "$runtime" Depends) | grep -qE 'mujoco|bullet' && fail "core or runtime depend on another engine"
 mujoco=$(find "$work/packages" -maxdepth 1 -name 'samara-mujoco_*.deb')  # where MuJoCo is
 if [ -n "$mujoco" ]; then

@@ -47,7 +47,7 @@ COMMANDED = {
     "spin": scene(WATER, body("ellipsoid", 'density = 1100\nangular_velocity = [10, 1000, 3]\nloads = "none"'), 1.0, "step = 0.0416666667"),
     "long-step": scene(AIR, body("sheet", "density = 800\ncount = 4\nspread = { angle = 3.1 }"), 8.0, "step = 0.2"),
     "coin": scene(WATER, body("disc", "density = 8900\norientation = [0.98, 0.2, 0, 0]\ncount = 6\nspread = { angle = 0.05 }"), 2.0, "ground = -0.5"),
-    "noise-of-paper": scene(AIR, body("airplane", 'langevin = "body-velocity"\nvelocity = [-1, 0, 0]'), 2.0, "seed = 11"),
+    "noise-of-paper": scene(AIR, body("airplane", 'density = 800\nturbulence = "table"\nlangevin = "body-velocity"\nvelocity = [-1, 0, 0]'), 2.0, "seed = 11"),
     "gust": scene(WATER + "gust = { amplitude = [0.2, 0, 0], period = 0.9 }\ncurrent = [0.1, 0.05, 0]\n",
                   body("cube", "count = 5\nspread = { angle = 3.1, position = [0.2, 0, 0], size = [0.6, 1.7], start = 0.5 }")),
     "vortex-and-fan": scene(AIR + '[wind]\nvelocity = [0.5, 0, 0]\nprofile = { law = "power" }\n[[wind.vortex]]\ncirculation = 1.0\n'
