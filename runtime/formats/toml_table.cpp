@@ -175,11 +175,11 @@ std::optional<Vector3d> TomlTable::vector(std::string_view key) {
 }
 
 std::optional<Quaterniond> TomlTable::orientation() {
-    const auto degrees = vector("rotation");
+    const auto angles = vector("rotation");
     const auto given = quaternion("orientation");
-    if (!degrees) return given;
+    if (!angles) return given;
     if (given) throw error("rotation", "excludes orientation; give one of the two");
-    const Vector3d radians = std::numbers::pi / 180.0 * *degrees;
+    const Vector3d radians = std::numbers::pi / 180.0 * *angles;
     return Quaterniond(Eigen::AngleAxisd(radians.z(), Vector3d::UnitZ()) *
                        Eigen::AngleAxisd(radians.y(), Vector3d::UnitY()) *
                        Eigen::AngleAxisd(radians.x(), Vector3d::UnitX()));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 #include <unistd.h>
@@ -35,15 +36,16 @@ struct FluidModel {
         const std::string inside;
         text += "<size nuserdata='2000'/><custom>";
         for (const auto& [key, value] : settings) {
-            if (key != "file") text += "<text name='samara:" + key + "' data='" + value + "'/>";
+            if (key != "file") text += fmt::format("<text name='samara:{}' data='{}'/>", key, value);
         }
         for (const std::string& body : bodies)
-            text += "<text name='samara:" + body + ":file' data='" + settings.at("file") + "'/>";
+            text += fmt::format("<text name='samara:{}:file' data='{}'/>", body, settings.at("file"));
         text += "</custom>";
 #else
         const std::string inside = "<plugin instance='fluid'/>";
         text += "<extension><plugin plugin='samara.fluid'><instance name='fluid'>";
-        for (const auto& [key, value] : settings) text += "<config key='" + key + "' value='" + value + "'/>";
+        for (const auto& [key, value] : settings)
+            text += fmt::format("<config key='{}' value='{}'/>", key, value);
         text += "</instance></plugin></extension>";
 #endif
         for (std::size_t at = world.find("{fluid}"); at != std::string::npos; at = world.find("{fluid}"))
