@@ -16,6 +16,7 @@
 #include "samara/commands/shared/arguments.hpp"
 #include "samara/commands/shared/load_body.hpp"
 #include "samara/core/base/error.hpp"
+#include "samara/core/base/text.hpp"
 #include "samara/core/body/body_file.hpp"
 #include "samara/core/files/replace_file.hpp"
 #include "samara/scene/scene_file.hpp"
@@ -51,6 +52,7 @@ struct BakeOptions {
     double tolerance = SceneBakeOptions().tolerance;
     double budget = 0.0;
     int rounds = SceneBakeOptions().most_rounds;
+    std::string bodies;  ///< of a scene, comma-separated; empty: all
     bool dry_run = false;
 };
 
@@ -204,6 +206,22 @@ void require_for_turbulence_only(const BakeOptions& options, const Arguments& ar
     }
 }
 
+/// Keeps the requests of the bodies that --body names. Throws where the scene has none of that name.
+void keep_bodies(const BakeOptions& options, std::vector<BakeRequest>& requests) {
+    if (options.bodies.empty()) return;
+    const std::vector<std::string> bodies = comma_separated(options.bodies);
+    std::vector<std::string> names;
+    for (const BakeRequest& request : requests) names.push_back(request.name);
+    for (const std::string& body : bodies) {
+        if (std::ranges::find(names, body) != names.end()) continue;
+        throw Error(fmt::format("{}: --body {}: the scene has no body of that name{}", options.input, body,
+                                did_you_mean(body, names)));
+    }
+    std::erase_if(requests, [&](const BakeRequest& request) {
+        return std::ranges::find(bodies, request.name) == bodies.end();
+    });
+}
+
 bool is_scene(const std::string& input) {
     return fs::path(input).extension() == ".toml";
 }
@@ -214,7 +232,7 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
         require_folder_to_make(is_scene(options.input) ? output : output.parent_path());
     }
     if (!is_scene(options.input)) {
-        for (const char* option : {"--tolerance", "--budget", "--rounds", "--whole-grid"}) {
+        for (const char* option : {"--tolerance", "--budget", "--rounds", "--whole-grid", "--body"}) {
             if (arguments.given(option)) {
                 throw Error(fmt::format(
                     "{}: {} applies to scenes only, as a shape is baked in all directions; leave it out",
@@ -251,18 +269,23 @@ std::vector<BakeRequest> requests_for(const BakeOptions& options, const Argument
                            .budget = {},
                            .most_rounds = options.rounds};
     if (arguments.given("--budget")) scene.budget = options.budget;
-    return requests_for_scene(read_scene_file(options.input), options.output, scene);
+    std::vector<BakeRequest> requests =
+        requests_for_scene(read_scene_file(options.input), options.output, scene);
+    keep_bodies(options, requests);
+    return requests;
 }
 
 nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const BakeOptions& options,
                             bool quiet) {
     nlohmann::json results = nlohmann::json::array();
     BodyNotes notes("samara bake");
+    FarmWork work;
     for (const BakeRequest& request : requests) {
         nlohmann::json one;
         if (options.dry_run) {
             const BakePreparation preparation = prepare_bake(request);
             note_warnings(notes, request, preparation);
+            work.add(preparation.work);
             if (!quiet) print_preparation(request, preparation, options.jobs);
             one = bake_as_json(request, preparation);
         } else {
@@ -281,7 +304,7 @@ nlohmann::json run_requests(const std::vector<BakeRequest>& requests, const Bake
         results.push_back(one);
     }
     notes.print();
-    if (options.dry_run && !quiet && results.size() > 1) print_total(results, options.jobs);
+    if (options.dry_run && !quiet && results.size() > 1) print_total(results, work, options.jobs);
     if (is_scene(options.input)) return {{"bodies", results}};
     return results.front();
 }
@@ -362,6 +385,7 @@ int run(int argc, const char* const* argv) {
         "for a scene: budget of CPU seconds for each body (estimated); no cases are added beyond it", 0.0,
         1e9);
     arguments.option("--rounds", options.rounds, "for a scene: maximum number of rounds of cases", 1, 100);
+    arguments.option("--body", options.bodies, "NAME[,NAME...]: for a scene: bake these of its bodies alone");
     arguments.flag("--whole-grid", options.whole_grid,
                    "for a scene: solve all directions, not only those in which its bodies move");
     arguments.flag("--dry-run", options.dry_run,

@@ -118,6 +118,7 @@ BakePreparation plan_of(const BakeRequest& request, const Body& body) {
         add_falls(body, fluid, masses, request.gravity, *preparation.plan);
     }
     if (preparation.scene_plan) preparation.scene_plan->cases = *preparation.plan;
+    preparation.work = farm_work(case_folder_of(request), body, *preparation.plan, foam_cases_folder());
     return preparation;
 }
 

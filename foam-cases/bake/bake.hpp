@@ -8,6 +8,7 @@
 
 #include "converter/convert.hpp"
 #include "foam-cases/bake/bake_plan.hpp"
+#include "foam-cases/bake/bake_schedule.hpp"
 #include "foam-cases/farm/case_farm.hpp"
 #include "foam-cases/farm/case_records.hpp"
 #include "foam-cases/scene/scene_plan.hpp"
@@ -49,6 +50,7 @@ struct BakeRequest {
 struct BakePreparation {
     double terminal_speed = 0.0;          ///< m/s, an estimate (bake_speed()); 0 for k and epsilon alone
     std::optional<BakePlan> plan;         ///< with a goal the plan of the first round
+    FarmWork work;                        ///< of the plan
     std::optional<ScenePlan> scene_plan;  ///< with a goal
     SampledFalls simulation;              ///< with a goal: falls before anything is baked
     Body body;                            ///< meshed, with its Kirchhoff tensor

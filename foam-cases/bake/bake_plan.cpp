@@ -324,7 +324,7 @@ BakePlan plan_of_meshes(const Body& body, const BakeQuality& quality) {
 
 void estimate_cost(BakePlan& plan) {
     plan.cpu_seconds = seconds_of_farm;
-    for (const double cells : plan.cells) plan.cpu_seconds += seconds_per_cell_of_mesh * cells;
+    for (const double cells : plan.cells) plan.cpu_seconds += estimated_mesh_seconds(cells);
     for (const BakeCase& entry : plan.cases) plan.cpu_seconds += estimated_seconds(plan, entry);
     for (const FreeFall& fall : plan.falls) {
         plan.cpu_seconds += estimated_fall_seconds(fall, cells_of(plan, fall.mesh));
@@ -349,6 +349,10 @@ double estimated_iterations(const BakePlan& plan, const BakeCase& entry) {
     if (entry.closure == Closure::k_epsilon)
         return (entry.start_from.empty() ? 1.3 : 1.2) * plan.quality.least_iterations;
     return (entry.start_from.empty() ? 0.35 : 0.25) * plan.quality.most_iterations;
+}
+
+double estimated_mesh_seconds(double cells) {
+    return seconds_per_cell_of_mesh * cells;
 }
 
 double estimated_seconds(const BakePlan& plan, const BakeCase& entry) {

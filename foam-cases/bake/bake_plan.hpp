@@ -118,7 +118,8 @@ void estimate_cost(BakePlan& plan);
 /// Estimates the number of iterations of a case.
 double estimated_iterations(const BakePlan& plan, const BakeCase& entry);
 
-/// Estimates the CPU seconds of a case.
+/// Estimate the CPU seconds of a mesh of so many cells, and of a case.
+double estimated_mesh_seconds(double cells);
 double estimated_seconds(const BakePlan& plan, const BakeCase& entry);
 
 /// Estimates the number of cells of a mesh within about 20 %: those of the background, the refined shells

@@ -76,6 +76,9 @@ std::string remedy_of(const nlohmann::json& mesh) {
     return remedy.empty() || remedy == "as planned" ? "" : fmt::format(" (remedy: {})", remedy);
 }
 
+// The numbers of jobs at once of which a dry run states the time.
+constexpr std::size_t told_jobs[] = {1, 8, 64, 512};
+
 }  // namespace
 
 nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& preparation) {
@@ -97,6 +100,12 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakePreparation& p
     }
     for (const double cells : preparation.plan->cells) json["estimated_cells"].push_back(std::round(cells));
     json["estimated_cpu_seconds"] = std::round(preparation.plan->cpu_seconds);
+    json["solved"] = preparation.work.done;
+    for (const std::size_t jobs : told_jobs) {
+        json["estimated_seconds"].push_back(
+            {{"jobs", jobs}, {"seconds", std::round(seconds_with(preparation.work, jobs))}});
+    }
+    json["longest_chain_seconds"] = std::round(longest_chain(preparation.work));
     json["estimated_bytes"] = std::round(bytes_to_solve(case_folder_of(request), *preparation.plan));
     return json;
 }
@@ -141,17 +150,29 @@ bool is_as_flown(const BakeRequest& request, const BakePlan& plan) {
            quality.loads_closure == usual_loads_closure(quality.name);
 }
 
-std::string cost_in_words(std::size_t cases, double cpu_seconds, int jobs, double bytes) {
-    const double at_once = std::min<double>(jobs, static_cast<double>(std::max<std::size_t>(1, cases)));
+std::string cost_in_words(std::size_t cases, double cpu_seconds, const FarmWork& work, int jobs,
+                          double bytes) {
+    const std::string solved = work.done == 0 ? "" : fmt::format(" ({} of them solved already)", work.done);
     return fmt::format(
-        "{} cases and falls, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", cases,
-        cpu_seconds, cpu_seconds / at_once, jobs, 1e-6 * bytes);
+        "{} cases and falls{}, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", cases,
+        solved, cpu_seconds, seconds_with(work, static_cast<std::size_t>(jobs)), jobs, 1e-6 * bytes);
+}
+
+/// Returns how long the work takes with more and more jobs at once, in one line.
+std::string schedule_of(const FarmWork& work) {
+    std::vector<std::string> seconds;
+    for (const std::size_t jobs : told_jobs) {
+        seconds.push_back(fmt::format("{:.0f}", seconds_with(work, jobs)));
+    }
+    return fmt::format("with {} jobs at once {} s; the longest chain of cases takes {:.0f} s",
+                       fmt::join(told_jobs, ", "), fmt::join(seconds, ", "), longest_chain(work));
 }
 
 /// Returns what the plan costs and, where that was measured, what it brings, in one line.
-std::string cost_of(const BakeRequest& request, const BakePlan& plan, int jobs) {
-    std::string text = cost_in_words(plan.cases.size() + plan.falls.size(), plan.cpu_seconds, jobs,
-                                     bytes_to_solve(case_folder_of(request), plan));
+std::string cost_of(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
+    const BakePlan& plan = *preparation.plan;
+    std::string text = cost_in_words(plan.cases.size() + plan.falls.size(), plan.cpu_seconds,
+                                     preparation.work, jobs, bytes_to_solve(case_folder_of(request), plan));
     if (request.goal) text += "; further rounds may follow";
     if (const auto errors = errors_on_held_out_falls(plan.quality.name);
         errors && is_as_flown(request, plan)) {
@@ -168,7 +189,7 @@ std::string cost_of(const BakeRequest& request, const BakePlan& plan, int jobs) 
 void note_cost(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
     if (!preparation.plan) return;
     print_note("samara bake: {}: quality {}, {}\n", request.output.string(), preparation.plan->quality.name,
-               cost_of(request, *preparation.plan, jobs));
+               cost_of(request, preparation, jobs));
 }
 
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs) {
@@ -192,11 +213,11 @@ void print_preparation(const BakeRequest& request, const BakePreparation& prepar
         print_result("  {}  a free fall of {:.3g} s on {}\n", fall.name, fall.duration * fall.time_unit(),
                      fall.mesh);
     }
-    print_result("meshes of about {:.0f} cells\n{}\n", fmt::join(plan.cells, ", "),
-                 cost_of(request, plan, jobs));
+    print_result("meshes of about {:.0f} cells\n{}\n{}\n", fmt::join(plan.cells, ", "),
+                 schedule_of(preparation.work), cost_of(request, preparation, jobs));
 }
 
-void print_total(const nlohmann::json& bodies, int jobs) {
+void print_total(const nlohmann::json& bodies, const FarmWork& work, int jobs) {
     std::size_t cases = 0;
     double seconds = 0.0;
     double bytes = 0.0;
@@ -206,7 +227,8 @@ void print_total(const nlohmann::json& bodies, int jobs) {
         seconds += body["estimated_cpu_seconds"].get<double>();
         bytes += body["estimated_bytes"].get<double>();
     }
-    print_result("all {} bodies: {}\n", bodies.size(), cost_in_words(cases, seconds, jobs, bytes));
+    print_result("all {} bodies, side by side: {}\nall {} bodies: {}\n", bodies.size(), schedule_of(work),
+                 bodies.size(), cost_in_words(cases, seconds, work, jobs, bytes));
 }
 
 void print_result(const BakeRequest& request, const BakeResult& result) {

@@ -15,9 +15,9 @@ nlohmann::json bake_as_json(const BakeRequest& request, const BakeResult& result
 void print_preparation(const BakeRequest& request, const BakePreparation& preparation, int jobs);
 void print_result(const BakeRequest& request, const BakeResult& result);
 
-/// Prints in one line on standard output what the bodies of a scene cost together; `bodies`: bake_as_json()
-/// of each, with --dry-run.
-void print_total(const nlohmann::json& bodies, int jobs);
+/// Prints on standard output what the bodies of a scene cost together; `bodies`: bake_as_json() of each, with
+/// --dry-run; `work`: of all of them.
+void print_total(const nlohmann::json& bodies, const FarmWork& work, int jobs);
 
 /// Prints in one line on standard error what will be solved, what it costs, and the errors to expect.
 void note_cost(const BakeRequest& request, const BakePreparation& preparation, int jobs);

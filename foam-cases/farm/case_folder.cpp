@@ -132,11 +132,20 @@ void write_foam_file(const fs::path& folder) {
     if (!fs::exists(file)) replace_file_with(file, "");
 }
 
+// Returns whether a record exists and belongs to these inputs.
+bool is_of_inputs(const fs::path& record, const std::string& hash) {
+    const nlohmann::json json = read_record(record);
+    return !json.empty() && text_in(json, "inputs_hash") == hash;
+}
+
 // Removes a record that belongs to other inputs or cannot be read; returns whether it did.
 bool discard_stale(const fs::path& record, const std::string& hash) {
-    if (!fs::exists(record)) return false;
-    const nlohmann::json json = read_record(record);
-    return (json.empty() || text_in(json, "inputs_hash") != hash) && fs::remove(record);
+    return fs::exists(record) && !is_of_inputs(record, hash) && fs::remove(record);
+}
+
+// Returns whether a mesh was not removed.
+bool has_mesh(const fs::path& folder) {
+    return fs::exists(folder / "constant/polyMesh/cellZones");
 }
 
 void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
@@ -155,7 +164,7 @@ void remove_unplanned_cases(const fs::path& folder, const BakePlan& plan) {
 
 void write_mesh_case(const fs::path& folder, const InputFolder& mesh) {
     // A mesh that was removed is made again.
-    const std::string needed = fs::exists(folder / "constant/polyMesh/cellZones") ? mesh.hash : "";
+    const std::string needed = has_mesh(folder) ? mesh.hash : "";
     discard_stale(folder / "mesh.json", needed);
     discard_stale(folder / "failed.json", mesh.hash);
     write_files(folder, mesh.files);
@@ -227,6 +236,19 @@ void require_cases_of(CaseType type, const fs::path& folder) {
         fmt::format("{}: holds the cases of samara {}, which would be overwritten; choose another name for "
                     "the output, or remove the folder",
                     folder.string(), found == CaseType::fall ? "validate" : "bake"));
+}
+
+std::set<std::string> made_folders(const fs::path& folder, const Body& body, const BakePlan& plan,
+                                   const fs::path& foam_cases) {
+    std::set<std::string> made;
+    if (!fs::exists(folder)) return made;
+    for (const auto& [name, planned] : input_folders(body, plan, foam_cases)) {
+        const bool is_mesh = planned.type == FolderType::mesh;
+        if (is_mesh && !has_mesh(folder / name)) continue;
+        if (is_of_inputs(folder / name / (is_mesh ? "mesh.json" : "provenance.json"), planned.hash))
+            made.insert(name);
+    }
+    return made;
 }
 
 void write_case_folder(const fs::path& folder, const Body& body, const BakePlan& plan,

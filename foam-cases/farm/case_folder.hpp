@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "converter/falls/free_fall.hpp"
@@ -33,6 +34,11 @@ enum class Unplanned { removed, kept };
 /// where a template lacks a parameter.
 void write_case_folder(const std::filesystem::path& folder, const Body& body, const BakePlan& plan,
                        const std::filesystem::path& foam_cases, Unplanned unplanned = Unplanned::removed);
+
+/// Returns the names of the meshes that are made and of the cases and falls that are solved in a folder of
+/// cases, by the inputs of the plan: write_case_folder() keeps them. Only reads.
+std::set<std::string> made_folders(const std::filesystem::path& folder, const Body& body,
+                                   const BakePlan& plan, const std::filesystem::path& foam_cases);
 
 /// Returns the body's surface in case axes as an ASCII STL file of one solid, "body". Triangles of order 2
 /// become four flat ones, so that the mesh follows the curved surface's edge nodes.

@@ -460,6 +460,12 @@ turbulence = "none"
     EXPECT_FALSE(read_body_file(folder_ / "bodies/ghost.body.h5").tables.has_value());
     EXPECT_FALSE(fs::exists(folder_ / "bodies/ghost.cases"));
 
+    const test::ProgramRun again = bake("scene.toml -o bodies --quality smoke --body ball --dry-run --json");
+    EXPECT_EQ(again.json()["bodies"].size(), 1u);
+    EXPECT_EQ(again.json()["bodies"][0]["solved"], 1);
+    EXPECT_EQ(again.json()["bodies"][0]["longest_chain_seconds"], 0.0);
+    EXPECT_THAT(bake("scene.toml -o bodies --body bal").error, HasSubstr("did you mean 'ball'?"));
+
     const test::ProgramRun mixed = bake("scene.toml -o bodies --density 1200");
     EXPECT_EQ(mixed.status, 1);
     EXPECT_THAT(mixed.error, HasSubstr("leave --density out"));
