@@ -152,7 +152,7 @@ bool is_as_flown(const BakeRequest& request, const BakePlan& plan) {
 
 std::string cost_in_words(std::size_t cases, double cpu_seconds, const FarmWork& work, int jobs,
                           double bytes) {
-    const std::string solved = work.done == 0 ? "" : fmt::format(" ({} of them solved already)", work.done);
+    const std::string solved = work.done == 0 ? "" : fmt::format(" ({} of them already solved)", work.done);
     return fmt::format(
         "{} cases and falls{}, {:.0f} CPU seconds in total, {:.0f} s with {} jobs, {:.0f} MB on disk", cases,
         solved, cpu_seconds, seconds_with(work, static_cast<std::size_t>(jobs)), jobs, 1e-6 * bytes);
