@@ -17,7 +17,7 @@ class Settings(ctypes.Structure):  # samara_settings of samara.h
                 ("gravity", c_double * 3), ("step", c_double), ("seed", c_uint64), ("run", c_uint32),
                 ("threads", c_int32), ("has_ground", c_int32), ("ground", c_double),
                 ("wind", ctypes.c_void_p), ("wind_context", ctypes.c_void_p),
-                ("bodies_collide", ctypes.c_int32)]
+                ("bodies_collide", ctypes.c_int32), ("precision", c_uint64)]
 
 
 class BodyGroup(ctypes.Structure):  # samara_body_group

@@ -12,6 +12,7 @@
 #include "samara/core/physics/body_physics.hpp"
 #include "samara/core/physics/fluid.hpp"
 #include "samara/core/physics/obstacle.hpp"
+#include "samara/core/physics/precision.hpp"
 #include "samara/core/physics/release.hpp"
 #include "samara/core/surface/display_mesh.hpp"
 #include "samara/core/wind/wind.hpp"
@@ -37,6 +38,7 @@ struct Scene {
     double step = 0.002;    ///< s
     bool step_auto =
         false;  ///< whether the step is chosen by the bodies' time scales (docs/explanation/integrator.md)
+    Precision precision = Precision::double_precision;  ///< of the steps
     double step_tolerance = 0.005;  ///< largest error of the step, relative to the displacement
     double frame_rate = 60.0;       ///< frames per second
     std::uint64_t seed = 1;         ///< seed of the noise and the spread of starts

@@ -319,6 +319,11 @@ void read_settings(TomlTable& table, Scene& scene) {
     scene.ground = table.number("ground");
     assign(scene.bodies_collide, table.boolean("bodies_meet"));  // its name in older scenes
     assign(scene.bodies_collide, table.boolean("bodies_collide"));
+    scene.precision = choice(
+        table, "precision",
+        Words<Precision>{{"double", Precision::double_precision}, {"single", Precision::single_precision}},
+        scene.precision);
+    require_rules(table, broken_rule(scene.precision, scene.bodies_collide));
     if (scene.duration * scene.frame_rate > 1e8 || scene.duration / scene.step > 1e10) {
         throw table.error("duration", "gives more than 1e8 frames or 1e10 steps; check the units");
     }

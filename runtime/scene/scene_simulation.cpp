@@ -89,6 +89,7 @@ SimulationSettings simulation_settings(const Scene& scene, int runs, int threads
             .wind = scene.wind,
             .bodies_collide = scene.bodies_collide,
             .step = scene.step,
+            .precision = scene.precision,
             .seed = scene.seed,
             .runs = runs,
             .threads = threads};

@@ -61,12 +61,12 @@ void step_at_rest(benchmark::State& state) {
 }
 
 /// Items a second are body-steps; `threads`: 1 or all cores.
-void batch(benchmark::State& state, int threads) {
+void batch(benchmark::State& state, int threads, Precision precision = Precision::double_precision) {
     ImmersedBody body = test::blunt_ellipsoid();
     body.turbulence = Turbulence::table;
     prepare(body);
     const auto count = static_cast<std::size_t>(state.range(0));
-    Batch bodies(body, count);
+    Batch bodies(body, count, precision);
     for (std::size_t i = 0; i < count; ++i) {
         bodies.set_state(i, test::tumbling_state(0.1, 0.001 * static_cast<double>(i % 1000)));
         bodies.set_noise(i, Noise(1, "leaf", 0, static_cast<std::uint32_t>(i)));
@@ -83,6 +83,9 @@ void batch(benchmark::State& state, int threads) {
 }
 void batch_on_one_core(benchmark::State& state) {
     batch(state, 1);
+}
+void single_batch_on_one_core(benchmark::State& state) {
+    batch(state, 1, Precision::single_precision);
 }
 void batch_on_all_cores(benchmark::State& state) {
     batch(state, 0);
@@ -184,6 +187,7 @@ void million_leaves(benchmark::State& state) {
 
 BENCHMARK(million_leaves)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(batch_on_one_core)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(single_batch_on_one_core)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(in_no_wind);
 BENCHMARK(in_no_wind_of_many_sizes);

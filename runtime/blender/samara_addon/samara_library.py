@@ -11,7 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int32, c_size_t,
 import numpy
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libsamara.so")
-API_VERSION = 10
+API_VERSION = 11
 
 LOADS_NONE, LOADS_COEFFICIENTS, LOADS_TABLE, LOADS_SURFACE, LOADS_OF_BODY = 0, 1, 2, 3, 4
 TURBULENCE_NONE, TURBULENCE_AS_LOADS = 0, 3
@@ -44,6 +44,7 @@ class Settings(ctypes.Structure):
         ("wind", c_void_p),
         ("wind_context", c_void_p),
         ("bodies_collide", c_int32),
+        ("precision", c_uint64),
     ]
 
 

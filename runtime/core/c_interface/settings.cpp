@@ -22,6 +22,7 @@ constexpr std::size_t first_group_size = offsetof(samara_body_group, langevin) +
 // callers do not fill.
 static_assert(offsetof(samara_settings, wind) % alignof(samara_settings) == 0);
 static_assert(offsetof(samara_settings, bodies_collide) % alignof(samara_settings) == 0);
+static_assert(offsetof(samara_settings, precision) % alignof(samara_settings) == 0);
 static_assert(offsetof(samara_body_group, table_reynolds_number) % alignof(samara_body_group) == 0);
 static_assert(offsetof(samara_body_group, patches) % alignof(samara_body_group) == 0);
 static_assert(offsetof(samara_body_group, spread_start) % alignof(samara_body_group) == 0);
@@ -128,6 +129,8 @@ SimulationSettings read_settings(const samara_settings& settings) {
     result.wind.function = given.wind;
     result.wind.function_context = given.wind_context;
     result.bodies_collide = given.bodies_collide != 0;
+    if (given.precision > SAMARA_PRECISION_SINGLE) reject("precision", "is not one of SAMARA_PRECISION_...");
+    result.precision = static_cast<Precision>(given.precision);
     if (!positive_number.holds(given.step)) reject("step", std::string(positive_number.words));
     result.step = given.step;
     result.seed = given.seed;

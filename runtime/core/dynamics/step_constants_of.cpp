@@ -21,7 +21,7 @@ Square<double> symmetric(const Matrix3d& m) {
     return square(0.5 * (m + m.transpose()));
 }
 
-void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable& table) {
+void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable<double>& table) {
     for (const double number : reynolds_numbers) {
         table.reynolds_numbers.push_back(number);
         table.logarithms.push_back(std::log(number));
@@ -33,8 +33,8 @@ void set_planes(const std::vector<double>& reynolds_numbers, DirectionTable& tab
 
 /// Returns the table whose entry i has the numbers row(i).
 template <std::size_t width, class Row>
-DirectionTable direction_table(const LoadTables& tables, const Row& row) {
-    DirectionTable result;
+DirectionTable<double> direction_table(const LoadTables& tables, const Row& row) {
+    DirectionTable<double> result;
     result.width = static_cast<int>(width);
     result.side = tables.map_size();
     result.rotated = !tables.axes.isIdentity(0.0);
@@ -54,7 +54,7 @@ double length_scale(const ImmersedBody& body) {
     return std::exp2(std::round(std::log2(body.length)));
 }
 
-DirectionTable load_table(const ImmersedBody& body) {
+DirectionTable<double> load_table(const ImmersedBody& body) {
     const double arm = body.length / length_scale(body);
     return direction_table<8>(*body.tables, [&](std::size_t i) {
         Vector3d moment = body.tables->entries[i].moment;
@@ -67,7 +67,7 @@ DirectionTable load_table(const ImmersedBody& body) {
     });
 }
 
-DirectionTable patch_table(const ImmersedBody& body, const SteadyPatch& patch) {
+DirectionTable<double> patch_table(const ImmersedBody& body, const SteadyPatch& patch) {
     if (patch.force.empty()) return {};
     return direction_table<4>(*body.tables, [&](std::size_t i) {
         const Vector3d f = body.dynamic.unsteady_factor * patch.force[i];
@@ -75,7 +75,7 @@ DirectionTable patch_table(const ImmersedBody& body, const SteadyPatch& patch) {
     });
 }
 
-DirectionTable turbulence_table(const ImmersedBody& body) {
+DirectionTable<double> turbulence_table(const ImmersedBody& body) {
     const double scale = length_scale(body) / body.length;
     return direction_table<4>(*body.tables, [&](std::size_t i) {
         const LoadEntry& entry = body.tables->entries[i];
@@ -85,8 +85,8 @@ DirectionTable turbulence_table(const ImmersedBody& body) {
 }
 
 /// Returns the area relative to A by direction: the projected one, or a given one everywhere.
-DirectionTable area_table(const ImmersedBody& body) {
-    DirectionTable table;
+DirectionTable<double> area_table(const ImmersedBody& body) {
+    DirectionTable<double> table;
     table.width = 8;
     table.side = body.coefficients.reference_area ? 3 : 2 * projection_subdivisions + 1;
     table.to_map_axes = square(Matrix3d::Identity());

@@ -124,11 +124,12 @@ BatchReport advance_alone(const ImmersedBody& body, const Surroundings& surround
 
 }  // namespace
 
-Batch::Batch(const ImmersedBody& body, std::size_t count)
+Batch::Batch(const ImmersedBody& body, std::size_t count, Precision precision)
     : body_(&body),
       size_(count),
       constants_(step_constants(body)),
       blocks_((count + StateBlock::size - 1) / StateBlock::size) {
+    if (precision == Precision::single_precision) in_single_ = in_single(constants_);
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
         blocks_[i].bodies = std::min(StateBlock::size, count - i * StateBlock::size);
         for (std::size_t lane = 0; lane < StateBlock::size; ++lane) {
@@ -216,7 +217,7 @@ BatchReport Batch::advance(const Surroundings& surroundings, double start, doubl
                                   .contact = ground.contact(start, time_step, first_step, steps),
                                   .wind = wind.source(),
                                   .external = external_.empty() ? nullptr : external_.data()};
-    if (size_ == 1 && !sized && !is_contact_left(0)) {
+    if (size_ == 1 && !sized && !in_single_ && !is_contact_left(0)) {
         BatchReport alone = advance_alone(*body_, surroundings, task, records, blocks_.front());
         alone.wind_is_sound = alone.wind_is_sound && wind.is_sound();
         return alone;
@@ -224,7 +225,9 @@ BatchReport Batch::advance(const Surroundings& surroundings, double start, doubl
     BatchReport report;
     std::mutex mutex;
     parallel_for(blocks_.size(), blocks_a_piece, threads, [&](std::size_t begin, std::size_t end) {
-        const BatchReport piece = kernel::advance_blocks(constants_, task, &blocks_[begin], end - begin);
+        const BatchReport piece =
+            in_single_ ? kernel::advance_blocks(*in_single_, task, &blocks_[begin], end - begin)
+                       : kernel::advance_blocks(constants_, task, &blocks_[begin], end - begin);
         const std::lock_guard lock(mutex);
         report.add(piece);
     });

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,17 +13,18 @@
 #include "samara/core/kernel/noise.hpp"
 #include "samara/core/kernel/state_block.hpp"
 #include "samara/core/physics/contact_record.hpp"
+#include "samara/core/physics/precision.hpp"
 #include "samara/core/physics/wrench.hpp"
 
 namespace samara {
 
 /// Bodies of one group that are stepped together, as many at a time as the machine's vectors hold. Each moves
-/// as advance() moves it alone, to the last bit, whatever its place in the batch, the number of threads and
-/// the division of the steps into calls.
+/// the same, to the last bit, whatever its place in the batch, the number of threads and the division of the
+/// steps into calls; in double precision as advance() moves it alone.
 class Batch {
   public:
     /// Makes `count` bodies at rest at the origin. `body` must outlive the batch.
-    Batch(const ImmersedBody& body, std::size_t count);
+    Batch(const ImmersedBody& body, std::size_t count, Precision precision = Precision::double_precision);
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     void set_state(std::size_t index, const BodyState& state) noexcept;
@@ -80,6 +82,7 @@ class Batch {
     const ImmersedBody* body_;
     std::size_t size_;
     StepConstants constants_;
+    std::optional<StepConstantsIn<float>> in_single_;  ///< in single precision
     std::vector<StateBlock> blocks_;
     std::vector<double> sizes_;                    ///< empty where all are the shape's
     std::vector<TouchingBody> touching_;           ///< of each size, where there is something to touch

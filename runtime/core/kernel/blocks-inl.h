@@ -15,23 +15,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
-/// Loads the lanes [first, first + N) of a block.
+/// Loads the lanes [first, first + N) of a block, in single precision rounded but for the position.
 template <class Tag>
 HWY_INLINE StepState<Lanes<Tag>> load_step_state(Tag tag, const StateBlock& block, std::size_t first) {
-    const auto field = [&](std::size_t i)
-                           HWY_ATTR { return Lanes<Tag>(hn::Load(tag, block.numbers[i] + first)); };
+    const auto row = [&](std::size_t i) HWY_ATTR { return load_row(tag, block.numbers[i] + first); };
+    const auto field = [&](std::size_t i) HWY_ATTR { return rounded(row(i)); };
     const auto triple = [&](std::size_t i) HWY_ATTR {
         return Triple<Lanes<Tag>>{field(i), field(i + 1), field(i + 2)};
     };
-    return {triple(0),  {field(3), triple(4)},  triple(7), triple(10), triple(13), triple(16), triple(19),
-            triple(22), {field(25), triple(26)}};
+    return {{row(0), row(1), row(2)},
+            {field(3), triple(4)},
+            triple(7),
+            triple(10),
+            triple(13),
+            triple(16),
+            triple(19),
+            triple(22),
+            {field(25), triple(26)}};
 }
 template <class Tag>
-HWY_INLINE void store_step_state(Tag tag, const StepState<Lanes<Tag>>& step_state, StateBlock& block,
+HWY_INLINE void store_step_state(Tag /*tag*/, const StepState<Lanes<Tag>>& step_state, StateBlock& block,
                                  std::size_t first) {
-    const auto keep = [&](std::size_t i, Lanes<Tag> value)
-                          HWY_ATTR { hn::Store(value.raw, tag, block.numbers[i] + first); };
-    const auto keep_triple = [&](std::size_t i, const Triple<Lanes<Tag>>& value) HWY_ATTR {
+    const auto keep = [&](std::size_t i, PositionOf<Lanes<Tag>> value)
+                          HWY_ATTR { store_row(value, block.numbers[i] + first); };
+    const auto keep_triple = [&](std::size_t i, const auto& value) HWY_ATTR {
         keep(i, value.x);
         keep(i + 1, value.y);
         keep(i + 2, value.z);
@@ -105,18 +112,20 @@ HWY_INLINE hn::Mask<Tag> near_ground(const kernel::Contact& contact, const StepS
     const V rotation_rate =
         (per_size * per_size) * root(dot(step_state.angular_velocity, step_state.angular_velocity));
     const V speed = per_size * root(dot(step_state.velocity, step_state.velocity));
-    const Triple<V> place = size * step_state.position;
-    const Triple<V> place_before = size * before.position;
+    // Places are compared in double precision: single would not tell them apart far from the origin.
+    using P = PositionOf<V>;
+    const Triple<P> place = P(size) * step_state.position;
+    const Triple<P> place_before = P(size) * before.position;
     const V margin =
         V(2.001) * substep * (speed + V(contact.ground_speed) + V(contact.radius) * rotation_rate);
-    const auto near = place.z - V(contact.reach) < margin + V(1e-5 * contact.radius);
+    const auto near = rounded(place.z - P(contact.reach)) < margin + V(1e-5 * contact.radius);
     if (!contact.has_obstacles) return near;
     // touch_ground() looks farther by the change of velocity: here by both speeds.
     const V speed_before = per_size * root(dot(before.velocity, before.velocity));
     const V around = margin + V(1.001) * (substep * (speed + speed_before + V(2.0 * contact.ground_speed)) +
                                           V(contact.radius));
-    const auto in_reach = [&](V a, V b, double low, double high) HWY_ATTR {
-        return hn::And(smaller(a, b) - around < V(high), V(low) < larger(a, b) + around);
+    const auto in_reach = [&](P a, P b, double low, double high) HWY_ATTR {
+        return hn::And(rounded(smaller(a, b) - P(high)) < around, rounded(P(low) - larger(a, b)) < around);
     };
     const auto by_obstacle =
         hn::And(in_reach(place_before.x, place.x, contact.box_low.x(), contact.box_high.x()),
@@ -141,7 +150,7 @@ inline void touch_ground(const kernel::Contact& contact, const StateBlock& befor
 
 /// Does the Langevin update of one step. `draw` gives its random numbers; `size_square`: of the body's size.
 template <class V, class Draw>
-HWY_INLINE void sample_turbulence(const StepConstants& c, V h, const Draw& draw, V size_square,
+HWY_INLINE void sample_turbulence(const ConstantsOf<V>& c, V h, const Draw& draw, V size_square,
                                   StepState<V>& step_state) {
     if (c.turbulence == Turbulence::none) {
         step_state.sampled_velocity = no_vector<V>();
@@ -170,16 +179,16 @@ HWY_INLINE Stream<V> no_stream() {
 
 /// Returns the place of the centroid at mid-step by its velocity (m, in the flow's frame).
 template <class V>
-HWY_INLINE Triple<V> halfway(const StepConstants& c, V h, const StepState<V>& step_state) {
+HWY_INLINE Triple<PositionOf<V>> halfway(const ConstantsOf<V>& c, V h, const StepState<V>& step_state) {
     const Square<V> to_world = rotation_matrix(step_state.orientation);
     const Triple<V> offset = (V(0.5) * h * V(c.length)) * centroid_velocity(c, step_state);
-    return step_state.position + to_world * (broadcast<V>(c.center_of_buoyancy) + offset);
+    return moved(step_state.position, to_world * (broadcast<V>(c.center_of_buoyancy) + offset));
 }
 
 /// Returns the stream of a body in a step: one that changes evenly; or a fluctuation that affects its loads
 /// alone, which is constant in the step and does not accelerate the fluid.
 template <class V>
-HWY_INLINE Stream<V> sampled_stream(const StepConstants& c, const Triple<V>& before,
+HWY_INLINE Stream<V> sampled_stream(const ConstantsOf<V>& c, const Triple<V>& before,
                                     const StepState<V>& step_state) {
     if (c.langevin != Langevin::wake) {
         return {before, step_state.sampled_velocity, step_state.sampled_rotation, false, no_vector<V>()};
@@ -191,7 +200,7 @@ HWY_INLINE Stream<V> sampled_stream(const StepConstants& c, const Triple<V>& bef
 /// Does the Langevin update of one step, in a wind or without (then `wind` is none), and returns the stream
 /// that the body is in. The turbulence depends on the body's velocity relative to the wind.
 template <class V, class Draw>
-HWY_INLINE Stream<V> sample_fluid(const StepConstants& c, V h, bool windy, const Stream<V>& wind,
+HWY_INLINE Stream<V> sample_fluid(const ConstantsOf<V>& c, V h, bool windy, const Stream<V>& wind,
                                   const Draw& draw, V size_square, StepState<V>& step_state) {
     const Triple<V> seen_before = step_state.sampled_velocity;
     if (!windy) {
@@ -212,28 +221,21 @@ HWY_INLINE Stream<V> sample_fluid(const StepConstants& c, V h, bool windy, const
 
 /// Samples the wind for the bodies of the lanes in a step.
 template <class Tag>
-HWY_INLINE Stream<Lanes<Tag>> sampled_wind(Tag tag, const StepConstants& c, const kernel::WindSource& source,
-                                           std::uint64_t step, std::size_t bodies, Lanes<Tag> h,
-                                           Lanes<Tag> size, const StepState<Lanes<Tag>>& step_state) {
+HWY_INLINE Stream<Lanes<Tag>> sampled_wind(Tag tag, const ConstantsOf<Lanes<Tag>>& c,
+                                           const kernel::WindSource& source, std::uint64_t step,
+                                           std::size_t bodies, Lanes<Tag> h, Lanes<Tag> size,
+                                           const StepState<Lanes<Tag>>& step_state) {
     using V = Lanes<Tag>;
     if (source.sample == nullptr) return no_stream<V>();
-    HWY_ALIGN_MAX double row[hn::MaxLanes(Tag())];
     kernel::SampledWind sampled;
-    const auto give = [&](V value, double* to) HWY_ATTR {
-        hn::Store(value.raw, tag, row);
-        for (std::size_t i = 0; i < bodies; ++i) to[i] = static_cast<double>(row[i]);
-    };
-    const auto take = [&](const double* from) HWY_ATTR {
-        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<double>(from[i]);
-        return V(hn::Load(tag, row));
-    };
-    const Triple<V> place = size * halfway(c, h, step_state);
-    give(place.x, sampled.place[0]);
-    give(place.y, sampled.place[1]);
-    give(place.z, sampled.place[2]);
+    const Triple<PositionOf<V>> place = PositionOf<V>(size) * halfway(c, h, step_state);
+    store_row(place.x, sampled.place[0]);
+    store_row(place.y, sampled.place[1]);
+    store_row(place.z, sampled.place[2]);
     source.sample(source.context, step, bodies, sampled);
     const auto three = [&](const double(&rows)[3][kernel::SampledWind::size]) HWY_ATTR {
-        return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
+        return Triple<V>{rounded(load_row(tag, rows[0])), rounded(load_row(tag, rows[1])),
+                         rounded(load_row(tag, rows[2]))};
     };
     return {size * three(sampled.begin), size * three(sampled.end), (size * size) * three(sampled.rotation),
             false, no_vector<V>()};
@@ -245,13 +247,9 @@ template <class Tag>
 HWY_INLINE Push<Lanes<Tag>> push_of(Tag tag, const kernel::ExternalLoads& external, std::size_t first,
                                     Lanes<Tag> size) {
     using V = Lanes<Tag>;
-    HWY_ALIGN_MAX double row[hn::MaxLanes(Tag())];
-    const auto take = [&](const double* from) HWY_ATTR {
-        for (std::size_t i = 0; i < hn::Lanes(tag); ++i) row[i] = static_cast<double>(from[first + i]);
-        return V(hn::Load(tag, row));
-    };
     const auto three = [&](const double(&rows)[3][kernel::ExternalLoads::size]) HWY_ATTR {
-        return Triple<V>{take(rows[0]), take(rows[1]), take(rows[2])};
+        return Triple<V>{rounded(load_row(tag, rows[0] + first)), rounded(load_row(tag, rows[1] + first)),
+                         rounded(load_row(tag, rows[2] + first))};
     };
     return {(V(1.0) / size) * three(external.moment), three(external.force)};
 }
@@ -300,7 +298,7 @@ inline void keep_on_ground(const kernel::BlockSteps& task, std::uint64_t number,
 
 /// Takes one step of the lanes [first, first + N) of a block; adds to the report.
 template <class Tag>
-HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::BlockSteps& task,
+HWY_INLINE void advance_lanes(Tag tag, const ConstantsOf<Lanes<Tag>>& c, const kernel::BlockSteps& task,
                               std::uint64_t number, StateBlock& block, std::size_t first,
                               StepState<Lanes<Tag>>& step_state, BatchReport& report) {
     using V = Lanes<Tag>;
@@ -314,11 +312,11 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     };
     if (!moving_lanes.any_moves) return keep_others_on_ground();
 
-    const V size = task.sized ? V(hn::Load(tag, block.size_of + first)) : V(1.0);
+    const V size = task.sized ? rounded(load_row(tag, block.size_of + first)) : V(1.0);
     const V size_square = size * size;
     const V own_excess = c.keeps_thickness ? V(1.0) / size - V(1.0) : V(0.0);
     const V h = V(task.time_step) / size_square;
-    const V moves(hn::Load(tag, moving_lanes.moves));
+    const V moves = rounded(load_row(tag, moving_lanes.moves));
     const bool has_contact = task.contact.resolve != nullptr;
     // The long copy is made only where it is needed.
     StateBlock before;
@@ -342,7 +340,7 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     HWY_ALIGN_MAX double counts[hn::MaxLanes(Tag())];
     const bool sees_fluid = windy || sees_turbulence(c);
     const V substeps = moves * substeps_of(c, h, sees_fluid, sampled.begin, step_state);
-    hn::Store(substeps.raw, tag, counts);
+    store_row(PositionOf<V>(substeps), counts);
     const bool all_whole = used_lanes == lanes && hn::AllTrue(tag, hn::Eq(substeps.raw, V(1.0).raw));
     int most = 1;
     if (all_whole) {
@@ -385,9 +383,10 @@ HWY_INLINE void advance_lanes(Tag tag, const StepConstants& c, const kernel::Blo
     keep_others_on_ground();
 }
 
-inline BatchReport advance_all(const StepConstants& c, const kernel::BlockSteps& task, StateBlock* blocks,
-                               std::size_t count) {
-    const hn::CappedTag<double, StateBlock::size> tag;
+template <class Real>
+BatchReport advance_all(const StepConstantsIn<Real>& c, const kernel::BlockSteps& task, StateBlock* blocks,
+                        std::size_t count) {
+    const hn::CappedTag<Real, StateBlock::size> tag;
     BatchReport report;
     for (StateBlock* block = blocks; block != blocks + count; ++block) {
         for (std::size_t first = 0; first < block->bodies; first += hn::Lanes(tag)) {

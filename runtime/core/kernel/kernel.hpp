@@ -84,8 +84,12 @@ struct BlockSteps {
     const ExternalLoads* external = nullptr;  ///< of every 16 bodies of the batch; null: none
 };
 
+/// Takes the steps of blocks of bodies. In single precision all but the positions is rounded to it in every
+/// step, so that the motion is the same however the steps are divided into calls.
 BatchReport advance_blocks(const StepConstants& constants, const BlockSteps& steps, StateBlock* blocks,
                            std::size_t count) noexcept;
+BatchReport advance_blocks(const StepConstantsIn<float>& constants, const BlockSteps& steps,
+                           StateBlock* blocks, std::size_t count) noexcept;
 
 /// The sampled turbulence's velocity over a whole step (m/s, world axes): it changes evenly from `begin` to
 /// `end`, while its rotation (rad/s) is held.

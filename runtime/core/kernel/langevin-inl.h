@@ -95,10 +95,16 @@ template <class Tag>
 HWY_INLINE Lanes<Tag> unit_interval(Tag tag, hn::Vec<hn::Rebind<std::uint32_t, Tag>> bits) {
     const hn::Rebind<std::uint32_t, Tag> words;
     const hn::Rebind<std::int32_t, Tag> integers;
-    // Only signed numbers convert on all machines: the sign's bit is moved into the sum.
-    const auto centered = hn::BitCast(integers, hn::Xor(bits, hn::Set(words, 0x80000000U)));
-    const Lanes<Tag> number = hn::PromoteTo(tag, centered);
-    return (number + Lanes<Tag>(0x1p31 + 0.5)) * Lanes<Tag>(0x1p-32);
+    if constexpr (in_single_precision<Lanes<Tag>>) {
+        // Of the first 24 bits: the largest number rounds to one.
+        const Lanes<Tag> number = hn::ConvertTo(tag, hn::BitCast(integers, hn::ShiftRight<8>(bits)));
+        return (number + Lanes<Tag>(0.5)) * Lanes<Tag>(0x1p-24);
+    } else {
+        // Only signed numbers convert on all machines: the sign's bit is moved into the sum.
+        const auto centered = hn::BitCast(integers, hn::Xor(bits, hn::Set(words, 0x80000000U)));
+        const Lanes<Tag> number = hn::PromoteTo(tag, centered);
+        return (number + Lanes<Tag>(0x1p31 + 0.5)) * Lanes<Tag>(0x1p-32);
+    }
 }
 
 /// The turbulence around a body: k (m^2/s^2), epsilon (m^2/s^3).
@@ -108,7 +114,7 @@ struct Level {
 };
 
 template <class V>
-HWY_INLINE Level<V> turbulence_level(const StepConstants& c, const Triple<V>& velocity) {
+HWY_INLINE Level<V> turbulence_level(const ConstantsOf<V>& c, const Triple<V>& velocity) {
     if (c.turbulence != Turbulence::table) {
         return {V(c.turbulent_kinetic_energy), V(c.dissipation_rate)};
     }
@@ -124,9 +130,8 @@ HWY_INLINE Level<V> turbulence_level(const StepConstants& c, const Triple<V>& ve
 /// Returns epsilon / k, zero where there is no turbulence.
 template <class V>
 HWY_INLINE V turbulence_rate(const Level<V>& level) {
-    const V least(1e-200);
-    return select(least < level.turbulent_kinetic_energy,
-                  level.dissipation_rate / larger(least, level.turbulent_kinetic_energy), V(0.0));
+    return select(V(least<V>) < level.turbulent_kinetic_energy,
+                  level.dissipation_rate / larger(V(least<V>), level.turbulent_kinetic_energy), V(0.0));
 }
 
 /// The share that a step keeps of an Ornstein-Uhlenbeck process of a given rate, and the share of its
@@ -147,7 +152,7 @@ HWY_INLINE Renewal<V> renewal(V rate, V h) {
 }
 
 template <class V>
-HWY_INLINE void advance_sampled_turbulence(const StepConstants& c, const Level<V>& level, V h,
+HWY_INLINE void advance_sampled_turbulence(const ConstantsOf<V>& c, const Level<V>& level, V h,
                                            const SixNormals<V>& normals, StepState<V>& step_state) {
     const Renewal<V> now = renewal(V(0.75 * kolmogorov_constant) * turbulence_rate(level), h);
     const V deviation = now.added * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
@@ -159,7 +164,7 @@ HWY_INLINE void advance_sampled_turbulence(const StepConstants& c, const Level<V
 /// Updates the velocity fluctuation by the wake, whose rms is smaller the more the body rotates on its path
 /// (docs/studies/noise).
 template <class V>
-HWY_INLINE void advance_wake(const StepConstants& c, const Level<V>& level, V h, const Triple<V>& normals,
+HWY_INLINE void advance_wake(const ConstantsOf<V>& c, const Level<V>& level, V h, const Triple<V>& normals,
                              StepState<V>& step_state) {
     const Triple<V> velocity = centroid_velocity(c, step_state);
     const V lengths_per_second = V(c.length * c.inverse_eddy_length) * root(dot(velocity, velocity));
@@ -170,8 +175,7 @@ HWY_INLINE void advance_wake(const StepConstants& c, const Level<V>& level, V h,
     const V going = lengths_per_second * lengths_per_second;
     const V rotation_rate =
         V(wake_order * wake_order) * dot(step_state.angular_velocity, step_state.angular_velocity);
-    const V least(1e-200);
-    const V unordered = going / larger(least, going + rotation_rate);
+    const V unordered = going / larger(V(least<V>), going + rotation_rate);
     const V deviation =
         now.added * V(c.wake_noise.share) * unordered * root(V(2.0 / 3.0) * level.turbulent_kinetic_energy);
     step_state.sampled_velocity = now.kept * step_state.sampled_velocity + deviation * normals;
@@ -179,7 +183,7 @@ HWY_INLINE void advance_wake(const StepConstants& c, const Level<V>& level, V h,
 }
 
 template <class V>
-HWY_INLINE void advance_body_velocity(const StepConstants& c, const Level<V>& level, V h,
+HWY_INLINE void advance_body_velocity(const ConstantsOf<V>& c, const Level<V>& level, V h,
                                       const SixNormals<V>& normals, StepState<V>& step_state) {
     const V zero(0.0);
     const V rate = V(0.5 + 0.75 * kolmogorov_constant) * turbulence_rate(level);

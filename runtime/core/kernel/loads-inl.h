@@ -28,13 +28,13 @@ struct Heading {
 template <class V>
 HWY_INLINE Heading<V> heading_of(const Triple<V>& velocity) {
     const V speed = root(dot(velocity, velocity));
-    return {speed, (V(1.0) / larger(V(tiny), speed)) * velocity};
+    return {speed, (V(1.0) / larger(V(tiny<V>), speed)) * velocity};
 }
 
 /// Eq. 5 in its regular form: the load on a body of that area in a steady translation, in units of the
 /// dynamic pressure.
 template <class V>
-HWY_INLINE Triple<V> coefficient_force(const StepConstants& c, const Triple<V>& direction, V area) {
+HWY_INLINE Triple<V> coefficient_force(const ConstantsOf<V>& c, const Triple<V>& direction, V area) {
     const Triple<V> normal = broadcast<V>(c.normal);
     const V along = dot(direction, normal);
     const Triple<V> lift = (V(c.twice_lift_coefficient) * along) * (normal - along * direction);
@@ -55,8 +55,8 @@ struct SteadyCoefficients {
 };
 
 template <bool with_moment, class V>
-HWY_INLINE SteadyCoefficients<V> steady_coefficients(const StepConstants& c,
-                                                     const DirectionTable& by_direction,
+HWY_INLINE SteadyCoefficients<V> steady_coefficients(const ConstantsOf<V>& c,
+                                                     const DirectionTable<RealOf<V>>& by_direction,
                                                      const Triple<V>& velocity, const Heading<V>& heading) {
     Place<V> place;
     find_place(by_direction, velocity, V(c.reynolds_factor) * heading.speed, place);
@@ -78,7 +78,7 @@ struct PressurePoint {
     Triple<V> arm, moment_along_force;
 };
 template <class V>
-HWY_INLINE PressurePoint<V> pressure_point(const StepConstants& c, const Triple<V>& velocity,
+HWY_INLINE PressurePoint<V> pressure_point(const ConstantsOf<V>& c, const Triple<V>& velocity,
                                            const Heading<V>& heading, V share) {
     const SteadyCoefficients<V> steady =
         steady_coefficients<true>(c, c.loads_by_direction, velocity, heading);
@@ -88,7 +88,7 @@ HWY_INLINE PressurePoint<V> pressure_point(const StepConstants& c, const Triple<
         cross(broadcast_symmetric<V>(c.potential_transport) * heading.direction, heading.direction);
     const Triple<V> moment = steady.moment - kirchhoff;
     const V square = dot(steady.force, steady.force);
-    const V scale = share / larger(V(tiny), square);
+    const V scale = share / larger(V(tiny<V>), square);
     return {scale * cross(steady.force, moment),
             (V(c.steady_factor) * scale * dot(moment, steady.force)) * steady.force};
 }
@@ -100,7 +100,7 @@ struct SteadyMatrix {
     Triple<V> side;
 };
 template <class V>
-HWY_INLINE SteadyMatrix<V> steady_matrix(const StepConstants& c, const LoadPatch& patch,
+HWY_INLINE SteadyMatrix<V> steady_matrix(const ConstantsOf<V>& c, const LoadPatch<RealOf<V>>& patch,
                                          const Triple<V>& velocity) {
     const Heading<V> heading = heading_of(velocity);
     const bool own = !patch.force.rows.empty();
@@ -125,9 +125,9 @@ HWY_INLINE LoadBlocks<V> moved_by_arm(const SteadyMatrix<V>& steady, const Tripl
 /// surface its part depends on its own velocity and place. A steady translation is that of the whole body; no
 /// patch adds energy.
 template <class V>
-HWY_INLINE LoadBlocks<V> steady_blocks(const StepConstants& c, const Triple<V>& omega,
+HWY_INLINE LoadBlocks<V> steady_blocks(const ConstantsOf<V>& c, const Triple<V>& omega,
                                        const Triple<V>& velocity, const Triple<V>& r) {
-    const auto of_patch = [&](const LoadPatch& patch) HWY_ATTR {
+    const auto of_patch = [&](const LoadPatch<RealOf<V>>& patch) HWY_ATTR {
         const Triple<V> arm = r + broadcast<V>(patch.place);
         return moved_by_arm(steady_matrix(c, patch, velocity + cross(omega, arm)), arm);
     };
@@ -154,7 +154,7 @@ HWY_INLINE void add_windmill(const Triple<V>& moment_along_force, const Triple<V
 /// Returns a / (a + b), and 0 where both are zero.
 template <class V>
 HWY_INLINE V share_of(V a, V b) {
-    return a / larger(V(tiny), a + b);
+    return a / larger(V(tiny<V>), a + b);
 }
 
 /// Adds force omega x p and moment v x p + omega x l of the momenta (l, p) that separated flow lacks: it does
@@ -162,7 +162,7 @@ HWY_INLINE V share_of(V a, V b) {
 /// equations' left side. `omega`: the body's own. `share`: of the wake that has formed; without a wake the
 /// moment is the potential flow's.
 template <class V>
-HWY_INLINE void add_transport(const StepConstants& c, const Triple<V>& omega, const Triple<V>& velocity,
+HWY_INLINE void add_transport(const ConstantsOf<V>& c, const Triple<V>& omega, const Triple<V>& velocity,
                               V share, LoadBlocks<V>& blocks) {
     // The isotropic part of T acts as a force alone, and as the steady force from the first: its moment v x v
     // is zero, and must stay so where D acts on another v than the one it was made with.
@@ -189,7 +189,7 @@ HWY_INLINE void add_transport(const StepConstants& c, const Triple<V>& omega, co
 /// Adds the force across the path by which a fluctuating wake acts on the body's sides: it does no work.
 /// `wake_fluctuation`: by the wake (l/s, body axes).
 template <class V>
-HWY_INLINE void add_side_pressure(const StepConstants& c, const Triple<V>& velocity,
+HWY_INLINE void add_side_pressure(const ConstantsOf<V>& c, const Triple<V>& velocity,
                                   const Triple<V>& wake_fluctuation, LoadBlocks<V>& blocks) {
     const Triple<V> pressed = broadcast_symmetric<V>(c.side_pressure) * wake_fluctuation;
     blocks.force_by_velocity =
@@ -198,14 +198,14 @@ HWY_INLINE void add_side_pressure(const StepConstants& c, const Triple<V>& veloc
 
 /// Returns the combined speed of translation and rotation, in l a second.
 template <class V>
-HWY_INLINE V combined_speed(const StepConstants& c, const Triple<V>& omega, const Triple<V>& velocity) {
+HWY_INLINE V combined_speed(const ConstantsOf<V>& c, const Triple<V>& omega, const Triple<V>& velocity) {
     return root(dot(velocity, velocity) + V(c.half_length * c.half_length) * dot(omega, omega));
 }
 
 /// Adds the part of the rotational drag about the direction of motion that falls lack
 /// (docs/explanation/moving-loads.md).
 template <class V>
-HWY_INLINE void add_roll_drag(const StepConstants& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
+HWY_INLINE void add_roll_drag(const ConstantsOf<V>& c, const Heading<V>& heading, LoadBlocks<V>& blocks) {
     const Triple<V>& direction = heading.direction;
     const V lacking = dot(direction, broadcast_symmetric<V>(c.lacking_roll_drag) * direction);
     blocks.moment_by_rotation =
@@ -217,7 +217,7 @@ HWY_INLINE void add_roll_drag(const StepConstants& c, const Heading<V>& heading,
 /// by which the flow departs from that of a steady translation; the effect of turbulence is in the table
 /// already. `share`: of the steady moment that is there, without which its force has no arm.
 template <class V>
-HWY_INLINE LoadBlocks<V> relative_load_blocks(const StepConstants& c, const Triple<V>& omega,
+HWY_INLINE LoadBlocks<V> relative_load_blocks(const ConstantsOf<V>& c, const Triple<V>& omega,
                                               const Triple<V>& velocity, const Triple<V>& rotation, V share) {
     const Heading<V> heading = heading_of(velocity);
     const V speed_square = dot(velocity, velocity);
@@ -278,21 +278,21 @@ HWY_INLINE Shares<V> shares_of(const WakeState<V>& wake) {
 /// heading to the direction of the velocity. The differences decay as exp(-x), with x the distance over that
 /// in which a wake forms or a heading settles, here to the second order and never below zero.
 template <class V>
-HWY_INLINE WakeState<V> wake_after(const StepConstants& c, const WakeState<V>& wake, V time,
+HWY_INLINE WakeState<V> wake_after(const ConstantsOf<V>& c, const WakeState<V>& wake, V time,
                                    const Triple<V>& omega, const Triple<V>& velocity,
                                    const Triple<V>& direction) {
     const auto kept_after = [](V x) HWY_ATTR { return V(1.0) / (V(1.0) + x * (V(1.0) + V(0.5) * x)); };
     const V speed_square = dot(velocity, velocity);
     const V reach_square = dot(velocity, broadcast_symmetric<V>(c.squared_formation_length) * velocity);
     const V x =
-        time * combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny), reach_square));
+        time * combined_speed(c, omega, velocity) * root(speed_square / larger(V(tiny<V>), reach_square));
     return {V(1.0) + kept_after(x) * (wake.formed - V(1.0)),
             direction + kept_after(V(c.settling_over_formation) * x) * (wake.heading - direction)};
 }
 
 /// Returns the wake in the middle of a step over h that begins with `wake` and moves at these velocities.
 template <class V>
-HWY_INLINE WakeState<V> wake_in_the_middle(const StepConstants& c, WakeState<V> wake, V h,
+HWY_INLINE WakeState<V> wake_in_the_middle(const ConstantsOf<V>& c, WakeState<V> wake, V h,
                                            const Triple<V>& omega, const Triple<V>& velocity,
                                            const Triple<V>& half_rotation) {
     if (c.has_spin_about_symmetry) {
@@ -304,7 +304,7 @@ HWY_INLINE WakeState<V> wake_in_the_middle(const StepConstants& c, WakeState<V> 
 
 /// Returns the wake at the end of the step.
 template <class V>
-HWY_INLINE WakeState<V> wake_in_the_end(const StepConstants& c, WakeState<V> wake, V h,
+HWY_INLINE WakeState<V> wake_in_the_end(const ConstantsOf<V>& c, WakeState<V> wake, V h,
                                         const Triple<V>& omega, const Triple<V>& velocity,
                                         const Triple<V>& half_rotation) {
     Triple<V> direction = heading_of(velocity).direction;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include <hwy/highway.h>
 
@@ -29,7 +30,7 @@ struct Lanes {
 
     Lanes() = default;
     HWY_INLINE Lanes(hn::Vec<Tag> value) : raw(value) {}
-    HWY_INLINE Lanes(double value) : raw(hn::Set(Tag(), value)) {}
+    HWY_INLINE Lanes(double value) : raw(hn::Set(Tag(), static_cast<hn::TFromD<Tag>>(value))) {}
 
     friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.raw, b.raw); }
     friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.raw, b.raw); }
@@ -53,6 +54,76 @@ struct Lanes {
         return hn::IfThenElse(condition, a.raw, b.raw);
     }
 };
+
+#if HWY_TARGET == HWY_SCALAR
+// One lane is both halves of its vector.
+template <class Tag>
+using HalfOf = Tag;
+template <class Tag, class Vector = hn::Vec<Tag>>
+HWY_INLINE Vector lower_half(Tag /*half*/, Vector whole) {
+    return whole;
+}
+template <class Tag, class Vector = hn::Vec<Tag>>
+HWY_INLINE Vector upper_half(Tag /*half*/, Vector whole) {
+    return whole;
+}
+template <class Tag, class Vector = hn::Vec<Tag>>
+HWY_INLINE Vector joined(Tag /*whole*/, Vector /*upper*/, Vector lower) {
+    return lower;
+}
+#else
+template <class Tag>
+using HalfOf = hn::Half<Tag>;
+template <class Half, class Vector>
+HWY_INLINE hn::Vec<Half> lower_half(Half half, Vector whole) {
+    return hn::LowerHalf(half, whole);
+}
+template <class Half, class Vector>
+HWY_INLINE hn::Vec<Half> upper_half(Half half, Vector whole) {
+    return hn::UpperHalf(half, whole);
+}
+template <class Tag, class Vector>
+HWY_INLINE hn::Vec<Tag> joined(Tag tag, Vector upper, Vector lower) {
+    return hn::Combine(tag, upper, lower);
+}
+#endif
+
+/// Lanes of double precision beside those of Tag, which are of single.
+template <class Tag>
+struct Wide {
+    using Half = HalfOf<Tag>;
+    using Doubles = hn::Rebind<double, Half>;
+    using Part = Lanes<Doubles>;
+    Part low, high;
+
+    Wide() = default;
+    HWY_INLINE Wide(Part first, Part second) : low(first), high(second) {}
+    HWY_INLINE Wide(double value) : low(value), high(value) {}
+    HWY_INLINE Wide(Lanes<Tag> a)
+        : low(hn::PromoteTo(Doubles(), lower_half(Half(), a.raw))),
+          high(hn::PromoteTo(Doubles(), upper_half(Half(), a.raw))) {}
+
+    friend HWY_INLINE Wide operator+(Wide a, Wide b) { return {a.low + b.low, a.high + b.high}; }
+    friend HWY_INLINE Wide operator-(Wide a, Wide b) { return {a.low - b.low, a.high - b.high}; }
+    friend HWY_INLINE Wide operator*(Wide a, Wide b) { return {a.low * b.low, a.high * b.high}; }
+    friend HWY_INLINE Wide larger(Wide a, Wide b) { return {larger(a.low, b.low), larger(a.high, b.high)}; }
+    friend HWY_INLINE Wide smaller(Wide a, Wide b) {
+        return {smaller(a.low, b.low), smaller(a.high, b.high)};
+    }
+    friend HWY_INLINE Wide select(hn::Mask<Tag> condition, Wide a, Wide b) {
+        const Wide chosen(Lanes<Tag>(hn::IfThenElseZero(condition, hn::Set(Tag(), 1.0F))));
+        const Part half(0.5);
+        return {select(half < chosen.low, a.low, b.low), select(half < chosen.high, a.high, b.high)};
+    }
+    friend HWY_INLINE Lanes<Tag> rounded(Wide a) {
+        return joined(Tag(), hn::DemoteTo(Half(), a.high.raw), hn::DemoteTo(Half(), a.low.raw));
+    }
+};
+/// Returns a place's number in the precision of the step.
+template <class Tag>
+HWY_INLINE Lanes<Tag> rounded(Lanes<Tag> a) {
+    return a;
+}
 
 HWY_INLINE double root(double a) {
     return std::sqrt(a);
@@ -86,6 +157,8 @@ template <class V>
 struct NumberTraits;
 template <>
 struct NumberTraits<double> {
+    using Real = double;
+    using Position = double;
     using Mask = bool;
     static HWY_INLINE bool any_of(bool condition) { return condition; }
     static HWY_INLINE double power_of_two(double n) {
@@ -103,10 +176,12 @@ struct NumberTraits<double> {
 template <class Tag, bool of_one_body>
 struct NumberTraits<Lanes<Tag, of_one_body>> {
     using Number = Lanes<Tag, of_one_body>;
+    using Real = hn::TFromD<Tag>;
+    using Position = std::conditional_t<std::is_same_v<Real, double>, Number, Wide<Tag>>;
     using Mask = hn::Mask<Tag>;
     using Integers = hn::RebindToSigned<Tag>;
-    static constexpr int fraction_bits = std::numeric_limits<double>::digits - 1;
-    static constexpr int bias = std::numeric_limits<double>::max_exponent - 1;
+    static constexpr int fraction_bits = std::numeric_limits<Real>::digits - 1;
+    static constexpr int bias = std::numeric_limits<Real>::max_exponent - 1;
 
     static HWY_INLINE bool any_of(Mask condition) { return !hn::AllFalse(Tag(), condition); }
     static HWY_INLINE Number power_of_two(Number n) {
@@ -125,7 +200,7 @@ struct NumberTraits<Lanes<Tag, of_one_body>> {
         constexpr auto bits =
             static_cast<hn::TFromD<Integers>>((static_cast<hn::TFromD<Integers>>(1) << fraction_bits) - 1);
         const auto fraction = hn::And(hn::BitCast(integers, x.raw), hn::Set(integers, bits));
-        return hn::Or(hn::BitCast(Tag(), fraction), hn::Set(Tag(), 1.0));
+        return hn::Or(hn::BitCast(Tag(), fraction), hn::Set(Tag(), Real{1}));
     }
 
   private:
@@ -143,9 +218,41 @@ struct NumberTraits<Lanes<Tag, of_one_body>> {
     }
 };
 
+template <class V>
+using RealOf = typename NumberTraits<V>::Real;
+/// The numbers of a body's position: of double precision.
+template <class V>
+using PositionOf = typename NumberTraits<V>::Position;
+template <class V>
+inline constexpr bool in_single_precision = std::is_same_v<RealOf<V>, float>;
+
 /// A speed (1/s, lengths in body lengths) below which a direction has no meaning; its square is a normal
 /// number.
-inline constexpr double tiny = 1e-140;
+template <class V>
+inline constexpr double tiny = in_single_precision<V> ? 1e-15 : 1e-140;
+/// The least divisor of a rate or an energy.
+template <class V>
+inline constexpr double least = in_single_precision<V> ? 1e-30 : 1e-200;
+
+/// Loads a row of numbers in double precision.
+template <class Tag>
+HWY_INLINE PositionOf<Lanes<Tag>> load_row(Tag tag, const double* row) {
+    if constexpr (std::is_same_v<hn::TFromD<Tag>, double>) {
+        return Lanes<Tag>(hn::LoadU(tag, row));
+    } else {
+        const typename Wide<Tag>::Doubles part;
+        return {hn::LoadU(part, row), hn::LoadU(part, row + hn::Lanes(tag) - hn::Lanes(part))};
+    }
+}
+template <class Tag>
+HWY_INLINE void store_row(Lanes<Tag> numbers, double* row) {
+    hn::StoreU(numbers.raw, Tag(), row);
+}
+template <class Tag>
+HWY_INLINE void store_row(Wide<Tag> numbers, double* row) {
+    store_row(numbers.low, row);
+    store_row(numbers.high, row + hn::Lanes(Tag()) - hn::Lanes(HalfOf<Tag>()));
+}
 
 /// Returns c[first] + c[first + stride] x + ... in pairs (Estrin's scheme): a short chain, where Horner's
 /// rule is a long one.
@@ -165,8 +272,17 @@ HWY_INLINE V polynomial(const double (&c)[N], V x) {
     return polynomial_from<0, 1>(c, x);
 }
 
+/// Returns polynomial() of all coefficients, or in single precision of the first `single`.
+template <int single, int N, class V>
+HWY_INLINE V short_polynomial(const double (&c)[N], V x) {
+    if constexpr (!in_single_precision<V>) return polynomial(c, x);
+    double first[single];
+    for (int i = 0; i < single; ++i) first[i] = c[i];
+    return polynomial(first, x);
+}
+
 /// Returns the natural logarithm of a positive normal number: twice the series of artanh of s, |s| < 0.172,
-/// with the coefficients `c`.
+/// with the coefficients `c`, of which single precision needs four.
 template <int N, class V>
 HWY_INLINE V logarithm_by(const double (&c)[N], V x) {
     using Traits = NumberTraits<V>;
@@ -176,7 +292,7 @@ HWY_INLINE V logarithm_by(const double (&c)[N], V x) {
     const V mantissa = select(above, m * V(0.5), m);
     const V exponent = Traits::exponent(x) + select(above, V(1.0), V(0.0));
     const V s = (mantissa - V(1.0)) / (mantissa + V(1.0));
-    return exponent * V(ln2) + s * polynomial(c, s * s);
+    return exponent * V(ln2) + s * short_polynomial<4>(c, s * s);
 }
 /// Returns the logarithm to its last bits.
 template <class V>
@@ -194,9 +310,10 @@ HWY_INLINE V short_logarithm(V x) {
 /// Returns exp(x) - 1 for x <= 0, accurate near zero: Taylor's series about the nearest multiple of ln 2.
 template <class V>
 HWY_INLINE V exponential_less_one(V x) {
-    constexpr double lowest = -700.0;
-    constexpr double ln2_high = 0x1.62e42fee00000p-1;
-    constexpr double ln2_low = 1.90821492927058770002e-10;
+    constexpr bool single = in_single_precision<V>;
+    constexpr double lowest = single ? -80.0 : -700.0;
+    constexpr double ln2_high = single ? 0.693359375 : 0x1.62e42fee00000p-1;
+    constexpr double ln2_low = single ? -2.12194440054690583e-4 : 1.90821492927058770002e-10;
     const V held = larger(x, V(lowest));
     const V n = whole_part(held * V(1.44269504088896340736) + V(0.5));
     const V y = held - n * V(ln2_high) - n * V(ln2_low);
@@ -213,7 +330,7 @@ HWY_INLINE V exponential_less_one(V x) {
                             1.0 / 39916800,
                             1.0 / 479001600,
                             1.0 / 6227020800};
-    const V series = y * polynomial(c, y);
+    const V series = y * short_polynomial<7>(c, y);
     const V power = NumberTraits<V>::power_of_two(n);
     return power * series + (power - V(1.0));
 }
@@ -243,8 +360,8 @@ HWY_INLINE void cosine_and_sine_of_revolution(V u, V& cosine, V& sine) {
                                   1.0 / 479001600,
                                   -1.0 / 87178291200,
                                   1.0 / 20922789888000};
-    const V s = angle * polynomial(sines, square);
-    const V c = polynomial(cosines, square);
+    const V s = angle * short_polynomial<5>(sines, square);
+    const V c = short_polynomial<5>(cosines, square);
     // n = 0 .. 4 quarters lie below the angle.
     const V odd = n - V(2.0) * whole_part(n * V(0.5));
     const auto swapped = V(0.5) < odd;

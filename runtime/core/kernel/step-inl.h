@@ -16,7 +16,7 @@ namespace samara::HWY_NAMESPACE {
 /// BodyState of body_state.hpp in the step's numbers.
 template <class V>
 struct StepState {
-    Triple<V> position;
+    Triple<PositionOf<V>> position;
     Quaternion<V> orientation;
     Triple<V> angular_velocity, velocity;
     Triple<V> sampled_velocity, sampled_rotation;
@@ -26,14 +26,14 @@ struct StepState {
 
 /// Returns the velocity (or acceleration) of the centroid from that of the centre of mass, in units of l.
 template <class V>
-HWY_INLINE Triple<V> to_centroid(const StepConstants& c, const Triple<V>& angular,
+HWY_INLINE Triple<V> to_centroid(const ConstantsOf<V>& c, const Triple<V>& angular,
                                  const Triple<V>& velocity) {
     if (!c.off_center) return V(c.inverse_length) * velocity;
     return V(c.inverse_length) * (velocity + cross(angular, broadcast<V>(c.center_of_buoyancy)));
 }
 /// Returns the velocity of the centre of mass: the inverse of to_centroid().
 template <class V>
-HWY_INLINE Triple<V> from_centroid(const StepConstants& c, const Triple<V>& angular,
+HWY_INLINE Triple<V> from_centroid(const ConstantsOf<V>& c, const Triple<V>& angular,
                                    const Triple<V>& velocity) {
     if (!c.off_center) return V(c.length) * velocity;
     return V(c.length) * velocity - cross(angular, broadcast<V>(c.center_of_buoyancy));
@@ -41,7 +41,7 @@ HWY_INLINE Triple<V> from_centroid(const StepConstants& c, const Triple<V>& angu
 
 /// Returns the velocity of the centroid, in l a second.
 template <class V>
-HWY_INLINE Triple<V> centroid_velocity(const StepConstants& c, const StepState<V>& step_state) {
+HWY_INLINE Triple<V> centroid_velocity(const ConstantsOf<V>& c, const StepState<V>& step_state) {
     return to_centroid(c, step_state.angular_velocity, step_state.velocity);
 }
 
@@ -118,8 +118,8 @@ struct Stiffness {
     V angular, linear;
 };
 template <class V>
-HWY_INLINE Stiffness<V> stiffness(const StepConstants& c, const LoadBlocks<V>& loads, V h) {
-    const auto of_block = [h](const Square<V>& block, const Triple<double>& inverse_inertia) HWY_ATTR {
+HWY_INLINE Stiffness<V> stiffness(const ConstantsOf<V>& c, const LoadBlocks<V>& loads, V h) {
+    const auto of_block = [h](const Square<V>& block, const Triple<RealOf<V>>& inverse_inertia) HWY_ATTR {
         return h * largest_of(product_of_each(diagonal_of(block), broadcast<V>(inverse_inertia)));
     };
     return {of_block(loads.moment_by_rotation, c.inverse_angular),
@@ -164,7 +164,7 @@ struct StepSystem {
 
 /// Stage 1: the inertia, and the momenta in the middle.
 template <class V>
-HWY_INLINE void add_inertia(const StepConstants& c, const StepStart<V>& start, const StepMiddle<V>& middle,
+HWY_INLINE void add_inertia(const ConstantsOf<V>& c, const StepStart<V>& start, const StepMiddle<V>& middle,
                             StepSystem<V>& system) {
     // The part of the linear momentum along the velocity (m* v, in units of m*) acts as a force alone: as p x
     // v its moment would vanish only where the v inside p and the one it acts on are parallel, and otherwise
@@ -194,7 +194,7 @@ HWY_INLINE void add_inertia(const StepConstants& c, const StepStart<V>& start, c
 
 /// Stage 2: what the rotating axes, weight and a host's push do.
 template <class V>
-HWY_INLINE void add_forces(const StepConstants& c, const StepStart<V>& start, const StepMiddle<V>& middle,
+HWY_INLINE void add_forces(const ConstantsOf<V>& c, const StepStart<V>& start, const StepMiddle<V>& middle,
                            StepSystem<V>& system) {
     const HalfTurn<V> under_body{middle.half_rotation};
     const Triple<V> gravity = under_body(start.gravity);
@@ -213,7 +213,7 @@ HWY_INLINE void add_forces(const StepConstants& c, const StepStart<V>& start, co
 
 /// Stage 3: the loads of the fluid, whose stiffness tells where in the step the middle lies (theta).
 template <class V>
-HWY_INLINE void add_loads(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle,
+HWY_INLINE void add_loads(const ConstantsOf<V>& c, const StepStart<V>& start, StepMiddle<V>& middle,
                           StepSystem<V>& system) {
     const HalfTurn<V> under_body{middle.half_rotation};
     StepMatrix<V>& matrix = system.matrix;
@@ -282,7 +282,7 @@ HWY_INLINE Velocities<V> solved_change(const StepSystem<V>& system, const StepSt
 /// unknowns are the changes of the velocities: solving for the velocities themselves would drift by a
 /// rounding error a step.
 template <class V>
-HWY_INLINE void solve_midpoint(const StepConstants& c, const StepStart<V>& start, StepMiddle<V>& middle) {
+HWY_INLINE void solve_midpoint(const ConstantsOf<V>& c, const StepStart<V>& start, StepMiddle<V>& middle) {
     middle.half_rotation = (V(0.5) * start.h) * middle.omega;
     middle.theta = V(0.5);
     StepSystem<V> system;
@@ -312,7 +312,8 @@ HWY_INLINE StepMiddle<V> select(Condition condition, const StepMiddle<V>& a, con
 /// the square of the velocity: to first order, a middle from a guess with the error d has the error 2 d / u
 /// of the velocity's change. One pass is of second order too, where drag is not stiff.
 template <class V>
-HWY_INLINE typename NumberTraits<V>::Mask needs_second_pass(const StepConstants& c, const StepStart<V>& start,
+HWY_INLINE typename NumberTraits<V>::Mask needs_second_pass(const ConstantsOf<V>& c,
+                                                            const StepStart<V>& start,
                                                             const Velocities<V>& guess,
                                                             const StepMiddle<V>& found) {
     const V tip_square(c.tip_square);
@@ -330,7 +331,7 @@ HWY_INLINE typename NumberTraits<V>::Mask needs_second_pass(const StepConstants&
 /// Returns the middle that a second pass finds, for bodies where it matters. Not inlined: most steps need
 /// none.
 template <class V>
-HWY_NOINLINE void second_pass(const StepConstants& c, const StepStart<V>& start, const Velocities<V>& guess,
+HWY_NOINLINE void second_pass(const ConstantsOf<V>& c, const StepStart<V>& start, const Velocities<V>& guess,
                               typename NumberTraits<V>::Mask repeated, StepMiddle<V>& middle) {
     StepMiddle<V> found = middle;
     // Where drag is stiff, a middle from the speed alone would oscillate about the terminal speed: halfway to
@@ -344,7 +345,7 @@ HWY_NOINLINE void second_pass(const StepConstants& c, const StepStart<V>& start,
 
 /// Returns the middle of the step from velocities guessed there: by one pass, or by two where it matters.
 template <class V>
-HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>& start,
+HWY_INLINE StepMiddle<V> found_middle(const ConstantsOf<V>& c, const StepStart<V>& start,
                                       const Velocities<V>& guess) {
     StepMiddle<V> found;
     found.omega = guess.omega;
@@ -365,14 +366,14 @@ HWY_INLINE StepMiddle<V> found_middle(const StepConstants& c, const StepStart<V>
 
 /// Returns the weight over gravity, as StepConstants has it, of a body with more mass of its own.
 template <class V>
-HWY_INLINE V weight_of(const StepConstants& c, V own_excess) {
+HWY_INLINE V weight_of(const ConstantsOf<V>& c, V own_excess) {
     return V(c.weight) + own_excess * V(c.own_mass * c.inverse_length);
 }
 
 /// Returns the start of a step. `gravity`: world axes; `velocity`: of the centre of mass, relative to the
 /// sampled turbulence.
 template <class V>
-HWY_INLINE StepStart<V> step_start(const StepConstants& c, const Square<V>& to_world,
+HWY_INLINE StepStart<V> step_start(const ConstantsOf<V>& c, const Square<V>& to_world,
                                    const Triple<V>& gravity, V h, bool fluid_rotates,
                                    const Triple<V>& sampled_rotation, const Triple<V>& velocity, V own_excess,
                                    const StepState<V>& step_state) {
@@ -395,7 +396,7 @@ HWY_INLINE StepStart<V> step_start(const StepConstants& c, const Square<V>& to_w
 
 /// Returns a host's wrench in body axes about the centroid, in units of m* and l.
 template <class V>
-HWY_INLINE Push<V> push_at_centroid(const StepConstants& c, const Square<V>& to_world, const Push<V>& push) {
+HWY_INLINE Push<V> push_at_centroid(const ConstantsOf<V>& c, const Square<V>& to_world, const Push<V>& push) {
     const V force_unit(c.inverse_length / c.mass_scale);
     const Triple<V> force = transposed_times(to_world, push.force);
     const Triple<V> moment =
@@ -404,7 +405,8 @@ HWY_INLINE Push<V> push_at_centroid(const StepConstants& c, const Square<V>& to_
 }
 
 /// Returns whether turbulence is a moving fluid for the body.
-HWY_INLINE bool sees_turbulence(const StepConstants& c) {
+template <class Real>
+HWY_INLINE bool sees_turbulence(const StepConstantsIn<Real>& c) {
     return c.turbulence != Turbulence::none && c.langevin != Langevin::body_velocity;
 }
 
@@ -417,7 +419,7 @@ HWY_INLINE bool sees_turbulence(const StepConstants& c) {
 /// displaced fluid alike (docs/explanation/noise-and-wake.md#seen-fluid). `push`: null where there is none.
 /// `own_excess`: the body's own mass over that of the constants, less one.
 template <class V>
-HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, V h, bool sees_fluid,
+HWY_INLINE void implicit_step(const ConstantsOf<V>& c, const Triple<V>& gravity, V h, bool sees_fluid,
                               const Stream<V>& stream, const Push<V>* push, V own_excess,
                               StepState<V>& step_state) {
     const Square<V> to_world = rotation_matrix(step_state.orientation);
@@ -457,7 +459,7 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
     // The same rotation as gravity's: the work of gravity is then exactly that of the height.
     const Triple<V> middle_velocity = from_centroid(c, found.omega, found.velocity);
     step_state.position =
-        step_state.position + h * (to_world * rotated_back(-found.half_rotation, middle_velocity));
+        moved(step_state.position, h * (to_world * rotated_back(-found.half_rotation, middle_velocity)));
     step_state.orientation = rotated_by(step_state.orientation, found.half_rotation);
     const V whole = V(1.0) / found.theta;
     const Triple<V> rotation_change = whole * found.change.omega;
@@ -467,8 +469,9 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
     step_state.angular_velocity = step_state.angular_velocity + rotation_change;
     step_state.velocity = relative_velocity + velocity_change;
     if (sees_fluid) {
-        step_state.position = step_state.position +
-                              (stream.on_loads_alone ? h * stream.begin : half * (stream.begin + stream.end));
+        step_state.position =
+            moved(step_state.position,
+                  stream.on_loads_alone ? h * stream.begin : half * (stream.begin + stream.end));
         step_state.velocity =
             step_state.velocity + transposed_times(rotation_matrix(step_state.orientation), stream.end);
     }
@@ -478,7 +481,7 @@ HWY_INLINE void implicit_step(const StepConstants& c, const Triple<V>& gravity, 
 /// Returns the rate (1/s) at which the body rotates, or would rotate by its Munk moment in a sampled
 /// turbulence (m/s, world axes).
 template <class V>
-HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple<V>& sampled_velocity,
+HWY_INLINE V rotation_rate(const ConstantsOf<V>& c, bool sees_fluid, const Triple<V>& sampled_velocity,
                            const StepState<V>& step_state) {
     Triple<V> velocity = centroid_velocity(c, step_state);
     if (sees_fluid) {
@@ -492,7 +495,7 @@ HWY_INLINE V rotation_rate(const StepConstants& c, bool sees_fluid, const Triple
 /// Returns the number of substeps of the step: each rotates the body by at most 0.3 rad, as far as the limit
 /// on their number allows. `sampled_velocity`: at the begin of the step (m/s, world axes).
 template <class V>
-HWY_INLINE V substeps_of(const StepConstants& c, V h, bool sees_fluid, const Triple<V>& sampled_velocity,
+HWY_INLINE V substeps_of(const ConstantsOf<V>& c, V h, bool sees_fluid, const Triple<V>& sampled_velocity,
                          const StepState<V>& step_state) {
     const V substeps = h * rotation_rate(c, sees_fluid, sampled_velocity, step_state) * V(1.0 / 0.3);
     return -whole_part(-smaller(V(most_substeps), larger(V(1.0), substeps)));

@@ -13,6 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace samara::HWY_NAMESPACE {
 
+/// The constants of a body in the precision of the numbers V.
+template <class V>
+using ConstantsOf = StepConstantsIn<RealOf<V>>;
+
 /// Four numbers of a table's rows.
 template <class V>
 struct Quad {
@@ -33,7 +37,8 @@ HWY_INLINE Triple<V> first_three(const Quad<V>& numbers) {
 }
 
 /// A place in a table: the first of its four corners (its first number's index), the corners' weights, and
-/// the offset from this plane to the next.
+/// the offset from this plane to the next. In single precision the weights are those of the sides of both
+/// planes, and of the corners of a side.
 template <class V>
 struct Place;
 
@@ -47,7 +52,7 @@ struct Place<double> {
 template <class Tag>
 struct Place<Lanes<Tag>> {
     HWY_ALIGN_MAX std::int32_t index[hn::MaxLanes(Tag())];
-    HWY_ALIGN_MAX double weights[4][hn::MaxLanes(Tag())];
+    HWY_ALIGN_MAX hn::TFromD<Tag> weights[6][hn::MaxLanes(Tag())];
     Lanes<Tag> plane_fraction;
 };
 
@@ -57,7 +62,11 @@ HWY_INLINE void keep_index(double index, Place<double>& place) {
 template <class Tag>
 HWY_INLINE void keep_index(Lanes<Tag> index, Place<Lanes<Tag>>& place) {
     const hn::Rebind<std::int32_t, Tag> integers;
-    hn::Store(hn::DemoteTo(integers, index.raw), integers, place.index);
+    if constexpr (in_single_precision<Lanes<Tag>>) {
+        hn::Store(hn::ConvertTo(integers, index.raw), integers, place.index);
+    } else {
+        hn::Store(hn::DemoteTo(integers, index.raw), integers, place.index);
+    }
 }
 HWY_INLINE void keep_weight(double weight, int corner, Place<double>& place) {
     place.weights[corner] = weight;
@@ -90,7 +99,7 @@ HWY_INLINE V cell_of(V place, V last, V& fraction) {
 
 /// Returns the plane below a Reynolds number, and its place between that and the next.
 template <class V>
-HWY_INLINE V plane_of(const DirectionTable& table, V reynolds_number, V& fraction) {
+HWY_INLINE V plane_of(const DirectionTable<RealOf<V>>& table, V reynolds_number, V& fraction) {
     const V zero(0.0);
     fraction = zero;
     if (table.planes() < 2) return zero;
@@ -103,7 +112,7 @@ HWY_INLINE V plane_of(const DirectionTable& table, V reynolds_number, V& fractio
         begin = select(beyond, V(table.logarithms[i]), begin);
         per_difference = select(beyond, V(table.inverse_differences[i]), per_difference);
     }
-    const V logarithm_here = short_logarithm(larger(V(tiny), reynolds_number));
+    const V logarithm_here = short_logarithm(larger(V(tiny<V>), reynolds_number));
     fraction = smaller(V(1.0), larger(zero, (logarithm_here - begin) * per_difference));
     return plane;
 }
@@ -111,12 +120,12 @@ HWY_INLINE V plane_of(const DirectionTable& table, V reynolds_number, V& fractio
 /// Finds the place of a direction, of any length, and a Reynolds number (octahedral_map.hpp,
 /// load_tables.hpp).
 template <class V>
-HWY_INLINE void find_place(const DirectionTable& table, const Triple<V>& direction, V reynolds_number,
-                           Place<V>& place) {
+HWY_INLINE void find_place(const DirectionTable<RealOf<V>>& table, const Triple<V>& direction,
+                           V reynolds_number, Place<V>& place) {
     const V zero(0.0);
     const V one(1.0);
     const Triple<V> d = table.rotated ? broadcast<V>(table.to_map_axes) * direction : direction;
-    const V norm = larger(magnitude(d.x) + magnitude(d.y) + magnitude(d.z), V(tiny));
+    const V norm = larger(magnitude(d.x) + magnitude(d.y) + magnitude(d.z), V(tiny<V>));
     const V inverse = one / norm;
     const V x = d.x * inverse;
     const V y = d.y * inverse;
@@ -132,10 +141,20 @@ HWY_INLINE void find_place(const DirectionTable& table, const Triple<V>& directi
 
     const V plane = plane_of(table, reynolds_number, place.plane_fraction);
     keep_index(((plane * V(table.side) + row) * V(table.side) + column) * V(table.width), place);
-    keep_weight((one - down) * (one - across), 0, place);
-    keep_weight((one - down) * across, 1, place);
-    keep_weight(down * (one - across), 2, place);
-    keep_weight(down * across, 3, place);
+    if constexpr (in_single_precision<V>) {
+        const V next = place.plane_fraction;
+        keep_weight((one - next) * (one - down), 0, place);
+        keep_weight((one - next) * down, 1, place);
+        keep_weight(next * (one - down), 2, place);
+        keep_weight(next * down, 3, place);
+        keep_weight(one - across, 4, place);
+        keep_weight(across, 5, place);
+    } else {
+        keep_weight((one - down) * (one - across), 0, place);
+        keep_weight((one - down) * across, 1, place);
+        keep_weight(down * (one - across), 2, place);
+        keep_weight(down * across, 3, place);
+    }
 }
 
 /// Returns the first `quads` fours of numbers at the place's corners, weighted.
@@ -153,13 +172,13 @@ HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::pt
 }
 
 #if HWY_TARGET == HWY_SCALAR
-template <class Tag>
-HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
+template <class Tag, class Real = hn::TFromD<Tag>>
+HWY_INLINE Quad<Lanes<Tag>> fields_of(const Real* rows) {
     return {Lanes<Tag>(hn::Set(Tag(), rows[0])), Lanes<Tag>(hn::Set(Tag(), rows[1])),
             Lanes<Tag>(hn::Set(Tag(), rows[2])), Lanes<Tag>(hn::Set(Tag(), rows[3]))};
 }
-template <class Piece>
-HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, double* rows,
+template <class Piece, class Real = hn::TFromD<Piece>>
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows,
                             std::size_t /*lane*/, std::size_t /*lanes*/) {
     hn::Store(sum, piece, rows + number);
 }
@@ -178,25 +197,46 @@ HWY_INLINE Quad<Lanes<Tag>> fields_of(const double* rows) {
             hn::InterleaveLower(tag, second0, second1), hn::InterleaveUpper(tag, second0, second1)};
 }
 
+template <class Tag>
+HWY_INLINE Quad<Lanes<Tag>> fields_of(const float* rows) {
+    const Tag tag;
+    const hn::Repartition<double, Tag> pairs;
+    const std::size_t n = hn::Lanes(tag);
+    const auto interleaved = [&](std::size_t row, bool upper) HWY_ATTR {
+        const auto a = hn::Load(tag, rows + row * n);
+        const auto b = hn::Load(tag, rows + (row + 1) * n);
+        return hn::BitCast(pairs, upper ? hn::InterleaveUpper(tag, a, b) : hn::InterleaveLower(tag, a, b));
+    };
+    const auto low01 = interleaved(0, false);
+    const auto low23 = interleaved(2, false);
+    const auto high01 = interleaved(0, true);
+    const auto high23 = interleaved(2, true);
+    return {hn::BitCast(tag, hn::InterleaveLower(pairs, low01, low23)),
+            hn::BitCast(tag, hn::InterleaveUpper(pairs, low01, low23)),
+            hn::BitCast(tag, hn::InterleaveLower(pairs, high01, high23)),
+            hn::BitCast(tag, hn::InterleaveUpper(pairs, high01, high23))};
+}
+
 /// Returns the place of one lane's numbers for fields_of(): in blocks of the 128 bits within which Highway
 /// interleaves.
-HWY_INLINE double* piece_of_lane(double* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
-    constexpr std::size_t block = 2;
+template <class Real>
+HWY_INLINE Real* piece_of_lane(Real* rows, std::size_t lane, std::size_t lanes, std::size_t number) {
+    constexpr std::size_t block = 16 / sizeof(Real);
     const std::size_t in_block = lane % block;
     const std::size_t row = in_block * (4 / block) + number / block;
     return rows + row * lanes + (lane - in_block);
 }
 /// Stores a lane's numbers from `number` on, a piece of 16 bytes at a time.
-template <class Piece>
-HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, double* rows,
-                            std::size_t lane, std::size_t lanes) {
+template <class Piece, class Real = hn::TFromD<Piece>>
+HWY_INLINE void keep_pieces(Piece piece, hn::Vec<Piece> sum, std::size_t number, Real* rows, std::size_t lane,
+                            std::size_t lanes) {
     constexpr std::size_t half = hn::MaxLanes(Piece()) / 2;
-    if constexpr (half >= 2) {
+    if constexpr (half * sizeof(Real) >= 16) {
         const hn::Half<Piece> halves;
         keep_pieces(halves, hn::LowerHalf(halves, sum), number, rows, lane, lanes);
         keep_pieces(halves, hn::UpperHalf(halves, sum), number + half, rows, lane, lanes);
     } else {
-        double* quad = rows + number / 4 * (4 * lanes);
+        Real* quad = rows + number / 4 * (4 * lanes);
         hn::Store(sum, piece, piece_of_lane(quad, lane, lanes, number % 4));
     }
 }
@@ -227,23 +267,68 @@ HWY_INLINE void corners_sum(const double* numbers, std::ptrdiff_t right, std::pt
     for (std::size_t quad = 0; quad < quads; ++quad) sums[quad] = fields_of<Tag>(rows + quad * 4 * lanes);
 }
 
+/// Returns the first `quads` fours of the numbers of a table of that width, interpolated: a side's two
+/// corners lie next to each other and are weighted at once, for both planes.
+template <int quads, int width, class Tag>
+HWY_INLINE void sides_sum(const float* numbers, std::ptrdiff_t down, std::ptrdiff_t next_plane,
+                          const Place<Lanes<Tag>>& place, Quad<Lanes<Tag>>* sums) {
+    const hn::CappedTag<float, std::size_t{2} * width> piece;
+    constexpr std::size_t step = hn::MaxLanes(piece);
+    const std::size_t lanes = hn::Lanes(Tag());
+    HWY_ALIGN_MAX float rows[width * hn::MaxLanes(Tag())];
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const auto sides = [&](std::size_t number) HWY_ATTR {
+            const float* n = numbers + place.index[lane] + number;
+            const auto weighted = [&](const float* from, int side) HWY_ATTR {
+                return hn::Mul(hn::LoadU(piece, from), hn::Set(piece, place.weights[side][lane]));
+            };
+            auto sum = hn::Add(weighted(n, 0), weighted(n + down, 1));
+            if (next_plane == 0) return sum;
+            sum = hn::Add(sum, weighted(n + next_plane, 2));
+            return hn::Add(sum, weighted(n + next_plane + down, 3));
+        };
+        const auto keep = [&](auto part, std::size_t number, auto left, auto right) HWY_ATTR {
+            const auto sum = hn::Add(hn::Mul(left, hn::Set(part, place.weights[4][lane])),
+                                     hn::Mul(right, hn::Set(part, place.weights[5][lane])));
+            keep_pieces(part, sum, number, rows, lane, lanes);
+        };
+        if constexpr (step == 2 * width) {
+            const HalfOf<std::remove_const_t<decltype(piece)>> part;
+            const auto both = sides(0);
+            keep(part, 0, lower_half(part, both), upper_half(part, both));
+        } else {
+            for (std::size_t number = 0; number < std::size_t{4} * quads; number += step) {
+                keep(piece, number, sides(number), sides(number + width));
+            }
+        }
+    }
+    for (std::size_t quad = 0; quad < quads; ++quad) sums[quad] = fields_of<Tag>(rows + quad * 4 * lanes);
+}
+
 /// Returns the first `quads` fours of the rows' numbers, interpolated.
 template <int quads, class V>
-HWY_INLINE void look_up(const DirectionTable& table, const Place<V>& place, Quad<V>* result) {
+HWY_INLINE void look_up(const DirectionTable<RealOf<V>>& table, const Place<V>& place, Quad<V>* result) {
     const std::ptrdiff_t right = table.width;
     const std::ptrdiff_t down = right * table.side;
     const std::ptrdiff_t next_plane = down * table.side;
-    const double* numbers = table.numbers();
-    corners_sum<quads>(numbers, right, down, place, result);
-    if (table.planes() < 2) return;
-    Quad<V> next[quads];
-    corners_sum<quads>(numbers + next_plane, right, down, place, next);
-    const V f = place.plane_fraction;
-    const V g = V(1.0) - f;
-    for (int i = 0; i < quads; ++i) {
-        const Quad<V>& here = result[i];
-        result[i] = {g * here.a + f * next[i].a, g * here.b + f * next[i].b, g * here.c + f * next[i].c,
-                     g * here.d + f * next[i].d};
+    const RealOf<V>* numbers = table.numbers();
+    if constexpr (in_single_precision<V>) {
+        const std::ptrdiff_t other_plane = table.planes() < 2 ? 0 : next_plane;
+        if (table.width == 4 * quads)
+            return sides_sum<quads, 4 * quads>(numbers, down, other_plane, place, result);
+        return sides_sum<quads, 8>(numbers, down, other_plane, place, result);
+    } else {
+        corners_sum<quads>(numbers, right, down, place, result);
+        if (table.planes() < 2) return;
+        Quad<V> next[quads];
+        corners_sum<quads>(numbers + next_plane, right, down, place, next);
+        const V f = place.plane_fraction;
+        const V g = V(1.0) - f;
+        for (int i = 0; i < quads; ++i) {
+            const Quad<V>& here = result[i];
+            result[i] = {g * here.a + f * next[i].a, g * here.b + f * next[i].b, g * here.c + f * next[i].c,
+                         g * here.d + f * next[i].d};
+        }
     }
 }
 
@@ -259,12 +344,12 @@ HWY_INLINE Packed first_three(const Quad<Spread>& quad) {
 }
 
 /// Finds the place for one body, both axes of the map side by side.
-HWY_INLINE void find_place(const DirectionTable& table, const Packed& direction, Spread reynolds_number,
-                           Place<Spread>& place) {
+HWY_INLINE void find_place(const DirectionTable<double>& table, const Packed& direction,
+                           Spread reynolds_number, Place<Spread>& place) {
     using Pair = Lanes<FourTag>;
     const Packed d = table.rotated ? broadcast<Spread>(table.to_map_axes) * direction : direction;
     const Packed magnitudes = hn::Abs(d.raw);
-    const Spread norm = larger(sum_of(magnitudes), Spread(tiny));
+    const Spread norm = larger(sum_of(magnitudes), Spread(tiny<Spread>));
     const Pair there = ((Spread(1.0) / norm) * d).raw;
     const Pair zero(0.0);
     const Pair one(1.0);
@@ -290,7 +375,8 @@ HWY_INLINE void find_place(const DirectionTable& table, const Packed& direction,
 }
 
 template <int quads>
-HWY_INLINE void look_up(const DirectionTable& table, const Place<Spread>& place, Quad<Spread>* result) {
+HWY_INLINE void look_up(const DirectionTable<double>& table, const Place<Spread>& place,
+                        Quad<Spread>* result) {
     const std::ptrdiff_t right = table.width;
     const std::ptrdiff_t down = right * table.side;
     const auto sum = [&](const double* n) HWY_ATTR {

@@ -153,6 +153,16 @@ HWY_INLINE Square<V> plus_cross(const Square<V>& a, const Triple<V>& w) {
             {a.z.x - w.y, a.z.y + w.x, a.z.z}};
 }
 
+/// Returns a place from which a body has moved.
+template <class V>
+HWY_INLINE Triple<V> moved(const Triple<V>& place, const Triple<V>& by) {
+    return place + by;
+}
+template <class Tag>
+HWY_INLINE Triple<Wide<Tag>> moved(const Triple<Wide<Tag>>& place, const Triple<Lanes<Tag>>& by) {
+    return {place.x + by.x, place.y + by.y, place.z + by.z};
+}
+
 /// Returns the inverse by the adjugate, with one division: for matrices whose symmetric part is positive
 /// definite, as their determinant then is.
 template <class V>

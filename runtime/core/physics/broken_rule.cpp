@@ -99,6 +99,11 @@ Broken broken_rule(const BodyPhysics& physics) {
              "applies only to loads or turbulence by table; remove it or set one of them to \"table\"")});
 }
 
+Broken broken_rule(Precision precision, bool bodies_collide) {
+    return broken_if(precision == Precision::single_precision && bodies_collide, "precision",
+                     "must be \"double\" where bodies_collide is true; set one of them otherwise");
+}
+
 Broken broken_rule(const Release& release) {
     constexpr double most_size = 1e3;  // beyond it a unit is wrong
     const bool are_sizes = release.smallest_size >= 1.0 / most_size &&

@@ -7,6 +7,7 @@
 #include "samara/core/physics/body_physics.hpp"
 #include "samara/core/physics/fluid.hpp"
 #include "samara/core/physics/obstacle.hpp"
+#include "samara/core/physics/precision.hpp"
 #include "samara/core/physics/release.hpp"
 
 namespace samara {
@@ -31,6 +32,9 @@ std::optional<BrokenRule> broken_rule(const MassSpecification& mass);
 /// The first rule that a body's physics breaks: ranges, those of its mass, and which models go together. What
 /// the body's file must hold for it is not judged. Nothing where it is sound.
 std::optional<BrokenRule> broken_rule(const BodyPhysics& physics);
+
+/// Single precision of bodies that touch each other. Nothing where they go together.
+std::optional<BrokenRule> broken_rule(Precision precision, bool bodies_collide);
 
 /// The first rule that a release breaks: ranges, and that a spread is of several copies. Nothing where it is
 /// sound.

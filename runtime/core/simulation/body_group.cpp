@@ -62,7 +62,8 @@ BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& sur
       threads_(settings.threads),
       collide_(settings.bodies_collide),
       body_(body.prepared->get(*body.body, physics, settings.fluid, name_)),
-      batch_(*body_, static_cast<std::size_t>(settings.runs) * static_cast<std::size_t>(release.count)),
+      batch_(*body_, static_cast<std::size_t>(settings.runs) * static_cast<std::size_t>(release.count),
+             settings.precision),
       before_(batch_.size()),
       before_time_(batch_.size(), 0.0) {
     if (release.start / step_ > most_steps_off) {

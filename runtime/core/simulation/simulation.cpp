@@ -11,6 +11,7 @@
 #include "samara/core/base/parallel_for.hpp"
 #include "samara/core/dynamics/body_size.hpp"
 #include "samara/core/files/content_hash.hpp"
+#include "samara/core/physics/broken_rule.hpp"
 #include "samara/core/simulation/body_group.hpp"
 #include "samara/core/simulation/broadphase.hpp"
 #include "samara/core/simulation/world_pose.hpp"
@@ -96,6 +97,9 @@ Simulation::Simulation(const SimulationSettings& settings) : members_(std::make_
     if (!(settings.step > 0.0 && std::isfinite(settings.step)) || settings.runs < 1) {
         reject(SimulationError::Reason::invalid_argument,
                "a simulation needs a step above zero and at least one run");
+    }
+    if (const auto broken = broken_rule(settings.precision, settings.bodies_collide)) {
+        reject(SimulationError::Reason::invalid_argument, broken->member + ' ' + broken->what);
     }
     members_->settings = settings;
     members_->broadphase = Broadphase(settings.step, settings.runs, settings.threads);
@@ -404,6 +408,7 @@ std::string Simulation::fingerprint() const {
     }
     text += description_of(all.wind);
     if (all.bodies_collide) text += "bodies meet\n";
+    if (all.precision != Precision::double_precision) text += "single precision\n";
     for (const auto& group : members_->groups) text += group->description();
     return text;
 }

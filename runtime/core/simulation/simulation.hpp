@@ -14,6 +14,7 @@
 #include "samara/core/physics/fluid_load.hpp"
 #include "samara/core/physics/obstacle.hpp"
 #include "samara/core/physics/pose.hpp"
+#include "samara/core/physics/precision.hpp"
 #include "samara/core/physics/release.hpp"
 #include "samara/core/physics/wrench.hpp"
 #include "samara/core/simulation/loaded_body.hpp"
@@ -31,8 +32,9 @@ struct SimulationSettings {
     /// Whether the bodies of a run touch each other as they touch the ground. All groups then share one grid
     /// of steps, and start at the next of its steps.
     bool bodies_collide = false;
-    double step = 0.002;          ///< s
-    std::uint64_t seed = 1;       ///< of all random numbers
+    double step = 0.002;                                ///< s
+    Precision precision = Precision::double_precision;  ///< of the steps
+    std::uint64_t seed = 1;                             ///< of all random numbers
     std::uint32_t first_run = 0;  ///< number of the first run, on which the noise depends
     int runs = 1;                 ///< the number of runs, which differ by their random numbers alone
     int threads = 1;              ///< 0: all cores; the poses are the same for any number

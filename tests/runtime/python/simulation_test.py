@@ -201,6 +201,20 @@ class LiveFlights(unittest.TestCase):
         self.assertTrue(((met["body"] >= -1) & (met["body"] < met["body"].size)).all())
         self.assertTrue((met["obstacle"] == -1).all())
 
+    def test_steps_are_of_single_precision_where_the_scene_says_so(self):
+        scene = leaves()
+        places = []
+        for precision in ("double", "single"):
+            scene["scene"]["precision"] = precision
+            simulation = samara.Simulation(samara.Scene(scene), runs=1)
+            simulation.advance(0.2)
+            places.append(simulation.poses("leaf").position)
+        self.assertFalse((places[0] == places[1]).all())
+        self.assertLess(abs(places[0] - places[1]).max(), 1e-4)
+        scene["scene"]["bodies_collide"] = True
+        with self.assertRaisesRegex(samara.InputError, "precision in .scene. must be"):
+            samara.Scene(scene)
+
     def test_contacts_are_arrays_of_runs_and_copies(self):
         scene = leaves()
         scene["scene"]["ground"] = -0.2

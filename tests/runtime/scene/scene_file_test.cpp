@@ -224,6 +224,20 @@ TEST_F(SceneFile, TheStepIsANumberOrLeftToTheAdviceWithATolerance) {
                 HasSubstr("scene.toml:4: step_tolerance in [scene] must lie between"));
 }
 
+TEST_F(SceneFile, ThePrecisionIsDoubleOrSingleAndSingleWhereBodiesDoNotMeet) {
+    const auto with = [](const std::string& keys) {
+        return "[scene]\nduration = 1\n" + keys +
+               "\n[[body]]\nname = \"ball\"\nshape = \"ball.stl\"\ndensity = 2\n";
+    };
+    EXPECT_EQ(read(with("")).precision, Precision::double_precision);
+    EXPECT_EQ(read(with("precision = \"double\"")).precision, Precision::double_precision);
+    EXPECT_EQ(read(with("precision = \"single\"")).precision, Precision::single_precision);
+    EXPECT_THAT(rejection(with("precision = \"half\"")),
+                HasSubstr("scene.toml:3: precision in [scene] must be one of \"double\", \"single\""));
+    EXPECT_THAT(rejection(with("precision = \"single\"\nbodies_collide = true")),
+                HasSubstr("scene.toml:3: precision in [scene] must be \"double\" where bodies_collide"));
+}
+
 TEST_F(SceneFile, ARotationIsInDegreesAboutXThenYThenZ) {
     const Quaterniond turned = read(with_body("density = 1\nrotation = [90, 0, 90]")).bodies[0].orientation;
     // About x first: y becomes z; then about z: x becomes y.

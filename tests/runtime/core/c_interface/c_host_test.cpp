@@ -224,6 +224,24 @@ TEST(CHost, LetsBodiesMeetAndSaysWhichWasMet) {
     EXPECT_NEAR(contacts[0].impulse[2], -contacts[1].impulse[2], 1e-12);
 }
 
+TEST(CHost, StepsInSinglePrecisionWhereBodiesDoNotMeet) {
+    const BodyOnDisk body;
+    samara_settings settings = default_settings();
+    const samara_pose in_double = poses_at(simulation_of(body, rubber_group(), settings), 0.5)[0];
+    settings.precision = SAMARA_PRECISION_SINGLE;
+    const samara_pose in_single = poses_at(simulation_of(body, rubber_group(), settings), 0.5)[0];
+    EXPECT_NE(in_single.position[2], in_double.position[2]);
+    EXPECT_NEAR(in_single.position[2], in_double.position[2], 1e-4);
+    samara_simulation* none = nullptr;
+    Text error;
+    settings.bodies_collide = 1;
+    EXPECT_EQ(CALL(samara_simulation_create, &settings, &none), SAMARA_INVALID_ARGUMENT);
+    EXPECT_THAT(error.text(), HasSubstr("precision must be \"double\" where bodies_collide is true"));
+    settings.precision = 2;
+    EXPECT_EQ(CALL(samara_simulation_create, &settings, &none), SAMARA_INVALID_ARGUMENT);
+    EXPECT_THAT(error.text(), HasSubstr("precision is not one of"));
+}
+
 TEST(CHost, RefusesWhatIsNoForceBodyOrPlace) {
     const BodyOnDisk body;
     const SimulationPointer simulation = simulation_of(body, rubber_group());

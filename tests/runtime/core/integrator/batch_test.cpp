@@ -61,8 +61,11 @@ Noise noise_of(std::size_t i) {
     return {7, "leaf", static_cast<std::uint32_t>(i % 3), static_cast<std::uint32_t>(i)};
 }
 
-Batch started(const ImmersedBody& body, const std::vector<std::size_t>& bodies) {
-    Batch batch(body, bodies.size());
+constexpr std::array precisions = {Precision::double_precision, Precision::single_precision};
+
+Batch started(const ImmersedBody& body, const std::vector<std::size_t>& bodies,
+              Precision precision = Precision::double_precision) {
+    Batch batch(body, bodies.size(), precision);
     for (std::size_t place = 0; place < bodies.size(); ++place) {
         batch.set_state(place, start_of(bodies[place]));
         batch.set_noise(place, noise_of(bodies[place]));
@@ -130,56 +133,161 @@ constexpr std::size_t many = 3000;
 TEST(Batch, DoesNotDependOnOrderNeighboursThreadsOrTheCuttingOfTime) {
     const ImmersedBody body = noisy_body();
     const std::vector<std::size_t> bodies = first(many);
-    Batch together = started(body, bodies);
-    together.advance(windy(), 0.0, h, 0, 24, 1);
-
     std::vector<std::size_t> shuffled = bodies;
     std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
     shuffled.resize(many * 3 / 8);
-    Batch others = started(body, shuffled);
-    std::uint64_t done = 0;
-    for (const std::uint64_t steps : {1U, 7U, 16U}) {
-        others.advance(windy(), 0.0, h, done, steps, 2);
-        done += steps;
+    for (const Precision precision : precisions) {
+        Batch together = started(body, bodies, precision);
+        together.advance(windy(), 0.0, h, 0, 24, 1);
+        Batch others = started(body, shuffled, precision);
+        std::uint64_t done = 0;
+        for (const std::uint64_t steps : {1U, 7U, 16U}) {
+            others.advance(windy(), 0.0, h, done, steps, 2);
+            done += steps;
+        }
+        for (std::size_t place = 0; place < shuffled.size(); ++place) {
+            ASSERT_TRUE(same_bits(others.state(place), together.state(shuffled[place])));
+        }
+        Batch alone = started(body, {shuffled[5]}, precision);
+        alone.advance(windy(), 0.0, h, 0, 24);
+        EXPECT_TRUE(same_bits(alone.state(0), others.state(5)));
     }
-    for (std::size_t place = 0; place < shuffled.size(); ++place) {
-        ASSERT_TRUE(same_bits(others.state(place), together.state(shuffled[place])));
+}
+
+// Landing, sliding and resting far from the origin, of many sizes, from many times on.
+TEST(Batch, TouchesTheGroundTheSameHoweverTimeIsCut) {
+    constexpr std::uint64_t all = 6000;
+    const ImmersedBody body = noisy_body();
+    for (const Precision precision : precisions) {
+        std::vector<BodyState> ends;
+        for (const std::uint64_t steps : {all, std::uint64_t{7}}) {
+            Batch batch = started(body, first(20), precision);
+            std::vector<double> sizes;
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                sizes.push_back(0.8 + 0.02 * static_cast<double>(i));
+            }
+            batch.set_sizes(sizes, true);
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                BodyState state = start_of(i);
+                state.position.x() += 500.0;
+                batch.set_state(i, state);
+                batch.set_first_step(i, i % 5);
+            }
+            for (std::uint64_t done = 0; done < all; done += steps) {
+                batch.advance({.ground = 0.17}, 0.0, h, done, std::min(steps, all - done));
+            }
+            std::size_t resting = 0;
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                if (steps == all) ends.push_back(batch.state(i));
+                EXPECT_TRUE(same_bits(batch.state(i), ends[i]));
+                resting += batch.state(i).at_rest ? 1 : 0;
+            }
+            EXPECT_GT(resting, batch.size() / 2);
+        }
     }
 }
 
 TEST(Batch, GoesOnFromAStateAsIfItHadNotStopped) {
     const ImmersedBody body = noisy_body();
-    Batch through = started(body, first(20));
-    through.advance(windy(), 0.0, h, 0, 40);
-    Batch before = started(body, first(20));
-    before.advance(windy(), 0.0, h, 0, 17);
-    Batch after = started(body, first(20));
-    for (std::size_t i = 0; i < after.size(); ++i) after.set_state(i, before.state(i));
-    after.advance(windy(), 0.0, h, 17, 23);
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        EXPECT_TRUE(same_bits(after.state(i), through.state(i)));
+    for (const Precision precision : precisions) {
+        Batch through = started(body, first(20), precision);
+        through.advance(windy(), 0.0, h, 0, 40);
+        Batch before = started(body, first(20), precision);
+        before.advance(windy(), 0.0, h, 0, 17);
+        Batch after = started(body, first(20), precision);
+        for (std::size_t i = 0; i < after.size(); ++i) after.set_state(i, before.state(i));
+        after.advance(windy(), 0.0, h, 17, 23);
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            EXPECT_TRUE(same_bits(after.state(i), through.state(i)));
+        }
     }
 }
 
-TEST(Batch, GivesTheSameBytesOnEveryInstructionSet) {
-    const ImmersedBody body = noisy_lopsided_body();
-    std::vector<std::vector<BodyState>> ends;
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        Batch batch = started(body, first(50));
-        batch.advance(windy(), 0.0, h, 0, 50);
-        ends.emplace_back();
-        for (std::size_t i = 0; i < batch.size(); ++i) ends.back().push_back(batch.state(i));
-        Batch alone = started(body, {7});
-        alone.advance(windy(), 0.0, h, 0, 50);
-        EXPECT_TRUE(same_bits(alone.state(0), ends.back()[7]));
+struct Distance {
+    double position = 0.0;  ///< m
+    double angle = 0.0;
+    double speed = 0.0;  ///< m/s
+};
+/// The largest distance of bodies from others, each `offset` away.
+Distance largest_distance(const Batch& batch, const Batch& others, const Vector3d& offset) {
+    Distance most;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        const BodyState a = batch.state(i);
+        const BodyState b = others.state(i);
+        most.position = std::max(most.position, (a.position - b.position - offset).norm());
+        most.angle = std::max(most.angle, a.orientation.angularDistance(b.orientation));
+        most.speed = std::max(most.speed, (a.velocity - b.velocity).tail<3>().norm());
     }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    ASSERT_GT(ends.size(), 1U);
-    for (const std::vector<BodyState>& end : ends) {
-        for (std::size_t i = 0; i < end.size(); ++i) EXPECT_TRUE(same_bits(end[i], ends.front()[i]));
+    return most;
+}
+
+TEST(Batch, InSinglePrecisionStaysCloseToDouble) {
+    for (const ImmersedBody& body :
+         {noisy_body(), noisy_body(Turbulence::constant), noisy_body(Turbulence::none), noisy_lopsided_body(),
+          noisy_patched_body(), coefficient_body()}) {
+        Batch batch = started(body, first(200), Precision::single_precision);
+        Batch doubles = started(body, first(200));
+        const BatchReport report = batch.advance(windy(), 0.0, h, 0, 100);
+        doubles.advance(windy(), 0.0, h, 0, 100);
+        const Distance distance = largest_distance(batch, doubles, Vector3d::Zero());
+        EXPECT_LT(distance.position, 1e-5);
+        EXPECT_LT(distance.angle, 1e-3);
+        EXPECT_GT(distance.position, 1e-12);
+        EXPECT_GE(report.implicit_steps, 200U * 100U);
+    }
+}
+
+TEST(Batch, InSinglePrecisionMovesTheSameFarFromTheOrigin) {
+    const ImmersedBody body = noisy_body();
+    const Vector3d offset(1000.0, -700.0, 300.0);
+    Batch near = started(body, first(50), Precision::single_precision);
+    Batch far = started(body, first(50), Precision::single_precision);
+    for (std::size_t i = 0; i < far.size(); ++i) {
+        BodyState state = start_of(i);
+        state.position += offset;
+        far.set_state(i, state);
+    }
+    near.advance(windy(), 0.0, h, 0, 500);
+    far.advance(windy(), 0.0, h, 0, 500);
+    const Distance distance = largest_distance(far, near, offset);
+    EXPECT_LT(distance.position, 1e-9);
+    EXPECT_EQ(distance.speed, 0.0);
+}
+
+TEST(Batch, InSinglePrecisionReachesTheTerminalSpeed) {
+    const ImmersedBody body = noisy_body(Turbulence::none);
+    Batch batch = started(body, first(16), Precision::single_precision);
+    Batch doubles = started(body, first(16));
+    for (Batch* each : {&batch, &doubles}) {
+        for (std::size_t i = 0; i < each->size(); ++i) each->set_state(i, BodyState{});
+        each->advance(Surroundings{}, 0.0, h, 0, 5000);
+    }
+    const BodyState settled = doubles.state(0);
+    const double speed = settled.velocity.tail<3>().norm();
+    EXPECT_NEAR(batch.state(0).velocity.tail<3>().norm(), speed, 1e-5 * speed);
+}
+
+TEST(Batch, GivesTheSameBytesOnEveryInstructionSet) {
+    for (const Precision precision : precisions) {
+        const ImmersedBody body = noisy_lopsided_body();
+        std::vector<std::vector<BodyState>> ends;
+        for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            Batch batch = started(body, first(50), precision);
+            batch.advance(windy(), 0.0, h, 0, 50);
+            ends.emplace_back();
+            for (std::size_t i = 0; i < batch.size(); ++i) ends.back().push_back(batch.state(i));
+            Batch alone = started(body, {7}, precision);
+            alone.advance(windy(), 0.0, h, 0, 50);
+            EXPECT_TRUE(same_bits(alone.state(0), ends.back()[7]));
+        }
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        ASSERT_GT(ends.size(), 1U);
+        for (const std::vector<BodyState>& end : ends) {
+            for (std::size_t i = 0; i < end.size(); ++i) EXPECT_TRUE(same_bits(end[i], ends.front()[i]));
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "samara/core/integrator/batch.hpp"
 #include "support/hard_bodies.hpp"
 #include "support/known_bodies.hpp"
 #include "support/random_bodies.hpp"
@@ -98,6 +99,28 @@ TEST(Passivity, RandomBodiesNeverGainEnergyWithSubsteps) {
 
 TEST(Passivity, RandomBodiesNeverGainEnergyWithTheReference) {
     expect_passive(", reference", 13, 500, 2, 1e-10, reference);
+}
+
+TEST(Passivity, RandomBodiesNeverGainEnergyInSinglePrecision) {
+    // Speeds to 10 m/s and rad/s, steps to a film frame: beyond, products of the numbers leave single
+    // precision's range.
+    const auto single = [](const ImmersedBody& body, double h, const BodyState& state) {
+        Batch batch(body, 1, Precision::single_precision);
+        batch.set_state(0, state);
+        batch.advance({.gravity = Vector3d::Zero()}, 0.0, h, 0, 1);
+        return batch.state(0);
+    };
+    test::RandomBodies random(14);
+    double worst = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+        const ImmersedBody body = random.body();
+        BodyState state = random.state();
+        state.velocity *= 0.01;
+        worst = std::max(
+            worst, largest_rise(body, state, random.magnitude(1e-6, 1.0 / 24.0), 5, single, energy_terms));
+    }
+    test::expect_row({"5000 random bodies, tables and states", "1e-6 to 1/24 s, single precision",
+                      "largest rise of E in a step, over the sum of its terms' sizes", 1e-5, worst});
 }
 
 TEST(Passivity, AHollowBodyNeverGainsEnergy) {

@@ -1,8 +1,11 @@
 // The ready-baked bodies fall as they fell: a change of the equations, the step or the tables that moves a
 // fall is seen here within seconds. How near the falls are to full CFD, docs/studies/falls says.
 
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +65,54 @@ TEST(ShippedBodies, FallAsTheyFell) {
             EXPECT_NEAR(measures.value(Metric::rms_angular_speed) / *fall.rms_angular_speed, 1.0, tolerance);
         }
     }
+}
+
+/// Mean and standard error over copies.
+struct Mean {
+    double value, error;
+};
+Mean mean_of(const std::vector<double>& numbers) {
+    const auto count = static_cast<double>(numbers.size());
+    const double mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) / count;
+    double square = 0.0;
+    for (const double number : numbers) square += (number - mean) * (number - mean);
+    return {mean, std::sqrt(square / (count * (count - 1.0)))};
+}
+
+TEST(ShippedBodies, ACrowdFallsInSinglePrecisionAsInDouble) {
+    Scene scene = read_scene_text(R"([scene]
+duration = 3
+[fluid]
+preset = "air"
+[[body]]
+name = "leaf"
+shape = "samara:leaf"
+count = 1000
+spread = { angle = 3.14 })",
+                                  "crowd.toml", ".");
+    const Body body = read_body_file(ready_body_file("leaf"));
+    choose_open_models(body, scene.bodies[0].open, scene.bodies[0]);
+    std::vector<Mean> descents;
+    std::vector<Mean> drifts;
+    for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+        scene.precision = precision;
+        Simulation simulation = simulation_of(scene, {{body, "hash"}}, 1, 1);
+        simulation.advance_to(1.0);
+        std::vector<double> begins;
+        for (std::size_t i = 0; i < simulation.size(); ++i) begins.push_back(simulation.pose(i).position.z());
+        simulation.advance_to(scene.duration);
+        std::vector<double> speeds;
+        std::vector<double> drift;
+        for (std::size_t i = 0; i < simulation.size(); ++i) {
+            const Vector3d place = simulation.pose(i).position;
+            speeds.push_back((begins[i] - place.z()) / 2.0);
+            drift.push_back(place.head<2>().norm());
+        }
+        descents.push_back(mean_of(speeds));
+        drifts.push_back(mean_of(drift));
+    }
+    EXPECT_NEAR(descents[1].value, descents[0].value, 2.0 * std::hypot(descents[0].error, descents[1].error));
+    EXPECT_NEAR(drifts[1].value, drifts[0].value, 2.0 * std::hypot(drifts[0].error, drifts[1].error));
 }
 
 }  // namespace

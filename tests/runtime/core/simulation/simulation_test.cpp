@@ -115,6 +115,32 @@ TEST(Simulation, GoesOnFromAStateInAnotherFlightOfTheSameKind) {
     EXPECT_EQ(error_of([&] { other.set_state(state); }), SimulationError::Reason::foreign_state);
 }
 
+TEST(Simulation, KeepsItsPrecision) {
+    const auto made = [](Precision precision) {
+        Simulation simulation({.precision = precision});
+        simulation.add(rubber(), physics_of(1200.0), {.count = 20, .spread_angle = 1.0});
+        return simulation;
+    };
+    Simulation first = made(Precision::single_precision);
+    first.advance_to(0.31);
+    const std::string state = first.state();
+    first.advance_to(0.8);
+    Simulation second = made(Precision::single_precision);
+    second.set_state(state);
+    for (const double time : {0.4, 0.401, 0.8}) second.advance_to(time);
+    Simulation other = made(Precision::double_precision);
+    EXPECT_EQ(error_of([&] { other.set_state(state); }), SimulationError::Reason::foreign_state);
+    other.advance_to(0.8);
+    for (std::size_t i = 0; i < 20; ++i) {
+        EXPECT_TRUE(test::same(first.pose(i), second.pose(i)));
+        EXPECT_FALSE(test::same(first.pose(i), other.pose(i)));
+        EXPECT_LT((first.pose(i).position - other.pose(i).position).norm(), 1e-3);
+    }
+    EXPECT_EQ(
+        error_of([] { Simulation({.bodies_collide = true, .precision = Precision::single_precision}); }),
+        SimulationError::Reason::invalid_argument);
+}
+
 TEST(Simulation, KindsOfOneBodyAndPhysicsShareWhatIsMadeOfThem) {
     const LoadedBody body = rubber();
     Simulation simulation;
