@@ -165,6 +165,12 @@ void bind_scene(py::module_& module) {
             "InputError where the scene is wrong.")
         .def_readonly("duration", &Scene::duration, "Duration in s.")
         .def_readonly("step", &Scene::step, "Time step in s.")
+        .def_property_readonly(
+            "precision",
+            [](const Scene& scene) {
+                return scene.precision == Precision::single_precision ? "single" : "double";
+            },
+            "The numbers that the steps are computed in: 'double' or 'single'.")
         .def_readonly("frame_rate", &Scene::frame_rate, "Frames per second.")
         .def_readonly("seed", &Scene::seed, "Seed of the noise and of the spread of starts.")
         .def_readonly("ground", &Scene::ground, "Height of the level ground in m, or None.")

@@ -318,9 +318,7 @@ HWY_INLINE void advance_lanes(Tag tag, const ConstantsOf<Lanes<Tag>>& c, const k
     const V h = V(task.time_step) / size_square;
     const V moves = rounded(load_row(tag, moving_lanes.moves));
     const bool has_contact = task.contact.resolve != nullptr;
-    // The long copy is made only where it is needed.
-    StateBlock before;
-    if (has_contact || moving_lanes.any_waits) store_step_state(tag, step_state, before, first);
+    StepState<V> before = step_state;
     const std::size_t used_lanes = std::min<std::size_t>(lanes, block.bodies - first);
     const bool windy = task.wind.sample != nullptr;
     const Stream<V> wind =
@@ -329,12 +327,9 @@ HWY_INLINE void advance_lanes(Tag tag, const ConstantsOf<Lanes<Tag>>& c, const k
         c, h, windy, wind, LaneDraw<Tag>{block, first, task.first_step + number}, size_square, step_state);
     if (moving_lanes.any_rests || moving_lanes.any_waits) {
         const auto is_moving = V(0.5) < moves;
-        const StepState<V> previous = load_step_state(tag, before, first);
-        step_state = select_step_state<Tag>(is_moving, step_state, previous);
-        step_state.sampled_velocity =
-            select(is_moving, step_state.sampled_velocity, previous.sampled_velocity);
-        step_state.sampled_rotation =
-            select(is_moving, step_state.sampled_rotation, previous.sampled_rotation);
+        step_state = select_step_state<Tag>(is_moving, step_state, before);
+        step_state.sampled_velocity = select(is_moving, step_state.sampled_velocity, before.sampled_velocity);
+        step_state.sampled_rotation = select(is_moving, step_state.sampled_rotation, before.sampled_rotation);
     }
 
     HWY_ALIGN_MAX double counts[hn::MaxLanes(Tag())];
@@ -357,28 +352,27 @@ HWY_INLINE void advance_lanes(Tag tag, const ConstantsOf<Lanes<Tag>>& c, const k
     const V divisor = larger(V(1.0), substeps);
     const V substep = h / divisor;
     const Vector3d& pull = task.gravities[number];
-    const Triple<V> gravity = (size_square * size) * Triple<V>{V(pull.x()), V(pull.y()), V(pull.z())};
+    // None where nothing moves: there it would call for second passes.
+    const Triple<V> gravity = (moves * size_square * size) * Triple<V>{V(pull.x()), V(pull.y()), V(pull.z())};
     Push<V> push;
     const bool pushed = task.external != nullptr;
     if (pushed) push = push_of(tag, task.external[block.first_body / block.size], first, size);
     for (int i = 0; i < most; ++i) {
-        StateBlock kept;
-        if (!all_whole) store_step_state(tag, step_state, kept, first);
+        const StepState<V> kept = step_state;
         implicit_step(c, gravity, substep, sees_fluid, all_whole ? sampled : part_of(sampled, i, divisor),
                       pushed ? &push : nullptr, own_excess, step_state);
-        if (!all_whole)
-            step_state =
-                select_step_state<Tag>(V(i) < substeps, step_state, load_step_state(tag, kept, first));
+        if (!all_whole) step_state = select_step_state<Tag>(V(i) < substeps, step_state, kept);
         if (!has_contact) continue;
-        const StepState<V> previous = load_step_state(tag, before, first);
-        if (!hn::AllFalse(tag, near_ground(task.contact, previous, step_state, substep, size))) {
-            std::copy_n(block.at_rest + first, lanes, before.at_rest + first);
+        if (!hn::AllFalse(tag, near_ground(task.contact, before, step_state, substep, size))) {
+            StateBlock block_before;
+            std::copy_n(block.at_rest + first, lanes, block_before.at_rest + first);
+            store_step_state(tag, before, block_before, first);
             store_step_state(tag, step_state, block, first);
             const double begin = step_time(task.start, task.time_step, task.first_step + number);
-            touch_ground(task.contact, before, block, first, lanes, i, counts, begin, task.time_step);
+            touch_ground(task.contact, block_before, block, first, lanes, i, counts, begin, task.time_step);
             step_state = load_step_state(tag, block, first);
         }
-        store_step_state(tag, step_state, before, first);
+        before = step_state;
     }
     keep_others_on_ground();
 }
