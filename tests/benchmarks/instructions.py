@@ -40,6 +40,8 @@ def by_difference(make, short: float, long: float, steps: int):
 STEPS = {
     "a step of one leaf": by_difference(lambda t: scene(t, leaves(1, "[0, 0, 50]")), 0.5, 2.5, 1000),
     "a step in a crowd of 512 leaves": by_difference(lambda t: scene(t, leaves(512, "[0, 0, 50]")), 0.1, 0.2, 50 * 512),
+    "the same in single precision": by_difference(
+        lambda t: scene(t, leaves(512, "[0, 0, 50]"), 'precision = "single"'), 0.1, 0.2, 50 * 512),
     "a step of leaves that land": by_difference(lambda t: scene(t, leaves(8, "[0, 0, 0.08]"), "ground = 0"), 0.1, 0.3, 100 * 8),
     "a step of leaves in a heap": by_difference(
         lambda t: scene(t, leaves(12, "[0, 0, 0.1]", ", position = [0.02, 0.02, 0.05]"), "ground = 0\nbodies_collide = true"), 0.2, 0.4,

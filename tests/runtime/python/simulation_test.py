@@ -206,7 +206,9 @@ class LiveFlights(unittest.TestCase):
         places = []
         for precision in ("double", "single"):
             scene["scene"]["precision"] = precision
-            simulation = samara.Simulation(samara.Scene(scene), runs=1)
+            checked = samara.Scene(scene)
+            self.assertEqual(checked.precision, precision)
+            simulation = samara.Simulation(checked, runs=1)
             simulation.advance(0.2)
             places.append(simulation.poses("leaf").position)
         self.assertFalse((places[0] == places[1]).all())
