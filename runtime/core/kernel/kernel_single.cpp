@@ -33,6 +33,7 @@ Square<float> single(const Square<double>& a) {
 }
 std::vector<float> single(const std::vector<double>& numbers) {
     std::vector<float> result;
+    result.reserve(numbers.size());
     for (const double number : numbers) result.push_back(single(number));
     return result;
 }

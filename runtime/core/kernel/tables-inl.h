@@ -292,7 +292,7 @@ HWY_INLINE void sides_sum(const float* numbers, std::ptrdiff_t down, std::ptrdif
                                      hn::Mul(right, hn::Set(part, place.weights[5][lane])));
             keep_pieces(part, sum, number, rows, lane, lanes);
         };
-        if constexpr (step == 2 * width) {
+        if constexpr (step == std::size_t{2} * width) {
             const HalfOf<std::remove_const_t<decltype(piece)>> part;
             const auto both = sides(0);
             keep(part, 0, lower_half(part, both), upper_half(part, both));
