@@ -89,11 +89,16 @@ bool Hdf5Reader::has(const std::string& name) const {
     try {
         for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
             const std::string step = name.substr(0, end);
-            if (!file_.nameExists(step)) return false;
-            H5L_info_t link = {};
-            if (H5Lget_info(file_.getId(), step.c_str(), &link, H5P_DEFAULT) < 0) throw error(step, damaged);
-            // Other links may lead anywhere, such as to other files.
-            if (link.type != H5L_TYPE_HARD) throw error(step, "is an external link, which is not followed");
+            if (!plain_.contains(step)) {
+                if (!file_.nameExists(step)) return false;
+                H5L_info_t link = {};
+                if (H5Lget_info(file_.getId(), step.c_str(), &link, H5P_DEFAULT) < 0)
+                    throw error(step, damaged);
+                // Other links may lead anywhere, such as to other files.
+                if (link.type != H5L_TYPE_HARD)
+                    throw error(step, "is an external link, which is not followed");
+                plain_.insert(step);
+            }
             if (end == std::string::npos) return true;
         }
     } catch (const H5::Exception&) {
@@ -133,7 +138,8 @@ H5::DataSet Hdf5Reader::open(const std::string& name) const {
 }
 
 H5::DataSet Hdf5Reader::open(const std::string& name, const std::vector<hsize_t>& dimensions) const {
-    const std::vector<hsize_t> found = shape(name);
+    H5::DataSet dataset = open(name);
+    const std::vector<hsize_t> found = shape_in_file(name, dataset);
     const bool fits = found.size() == dimensions.size() &&
                       std::equal(found.begin(), found.end(), dimensions.begin(),
                                  [](hsize_t is, hsize_t wanted) { return wanted == 0 || is == wanted; });
@@ -142,16 +148,19 @@ H5::DataSet Hdf5Reader::open(const std::string& name, const std::vector<hsize_t>
                     fmt::format("has the shape {}, not {} (0: any): the file has another type or was changed",
                                 found, dimensions));
     }
-    return open(name);
+    return dataset;
 }
 
-std::vector<hsize_t> Hdf5Reader::shape(const std::string& name) const {
-    const H5::DataSet dataset = open(name);
+std::vector<hsize_t> Hdf5Reader::shape_in_file(const std::string& name, const H5::DataSet& dataset) const {
     try {
         return shape_of(dataset.getSpace()).value();
     } catch (const H5::Exception&) {
         throw error(name, damaged);
     }
+}
+
+std::vector<hsize_t> Hdf5Reader::shape(const std::string& name) const {
+    return shape_in_file(name, open(name));
 }
 
 void Hdf5Reader::require_shape(const std::string& name, const std::vector<hsize_t>& dimensions) const {

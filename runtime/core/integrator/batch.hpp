@@ -25,6 +25,8 @@ class Batch {
     Batch(const ImmersedBody& body, std::size_t count);
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Takes the body with contact points, equal otherwise; it must outlive the batch.
+    void set_body(const ImmersedBody& body) noexcept { body_ = &body; }
     void set_state(std::size_t index, const BodyState& state) noexcept;
     [[nodiscard]] BodyState state(std::size_t index) const noexcept;
     /// Makes body number i `sizes[i]` (above zero) times as large as the shape, at its density: before its

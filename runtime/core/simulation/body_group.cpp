@@ -57,11 +57,13 @@ BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& sur
       surroundings_(surroundings),
       release_(release),
       physics_(physics),
-      hash_(body.hash),
       step_(settings.step),
       threads_(settings.threads),
       collide_(settings.bodies_collide),
-      body_(body.prepared->get(*body.body, physics, settings.fluid, name_)),
+      fluid_(settings.fluid),
+      loaded_(body),
+      touches_(collide_ || has_ground(surroundings)),
+      body_(body.prepared->get(*body.body, physics, settings.fluid, name_, touches_)),
       batch_(*body_, static_cast<std::size_t>(settings.runs) * static_cast<std::size_t>(release.count)),
       before_(batch_.size()),
       before_time_(batch_.size(), 0.0) {
@@ -77,6 +79,12 @@ BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& sur
     }
     set_seed(settings.seed, settings.first_run);
     draw_starts(settings);
+}
+
+void BodyGroup::find_contact_points() {
+    if (std::exchange(touches_, true)) return;
+    body_ = loaded_.prepared->get(*loaded_.body, physics_, fluid_, name_, true);
+    batch_.set_body(*body_);
 }
 
 void BodyGroup::draw_starts(const SimulationSettings& settings) {
@@ -368,7 +376,8 @@ void BodyGroup::set_pose(std::size_t index, const Pose& pose, double time) {
     batch_.set_state(index, state);
 }
 
-void BodyGroup::require_outside(const ObstacleSet& obstacles, double time) const {
+void BodyGroup::require_outside(const ObstacleSet& obstacles, double time) {
+    find_contact_points();
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         if (is_removed(i)) continue;
         const Pose here = pose(i, time);
@@ -405,6 +414,7 @@ void BodyGroup::set_surroundings(const Surroundings& surroundings) {
         batch_.set_state(i, state);
     }
     surroundings_ = surroundings;
+    if (has_ground(surroundings_)) find_contact_points();
     if (!batch_.sizes().empty()) batch_.set_sizes(batch_.sizes(), has_ground(surroundings_));
 }
 
