@@ -40,6 +40,8 @@ class Batch {
     /// bit.
     [[nodiscard]] BodyState own_state(std::size_t index) const noexcept;
     void keep_own_state(std::size_t index, const BodyState& state) noexcept;
+    /// Returns the number of the first body whose place or velocity is not finite; size() where all are.
+    [[nodiscard]] std::size_t first_not_finite() const noexcept;
     /// Returns the body's size relative to the shape's; 1 where none was set.
     [[nodiscard]] double size_of(std::size_t index) const noexcept {
         return sizes_.empty() ? 1.0 : sizes_[index];

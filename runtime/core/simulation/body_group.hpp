@@ -66,7 +66,7 @@ class BodyGroup {
     [[nodiscard]] bool is_there(std::size_t index) const noexcept {
         return !is_removed(index) && steps_ >= first_step(index);
     }
-    [[nodiscard]] std::size_t copies() const noexcept { return static_cast<std::size_t>(release_.count); }
+    [[nodiscard]] std::size_t copies() const noexcept { return release_.copies(); }
     [[nodiscard]] Batch& batch() noexcept { return batch_; }
     [[nodiscard]] const Batch& batch() const noexcept { return batch_; }
     [[nodiscard]] const Surroundings& surroundings() const noexcept { return surroundings_; }
@@ -125,6 +125,12 @@ class BodyGroup {
     bool read(StateReader& reader, double time, bool keep);
 
   private:
+    /// Returns a body's number among all copies.
+    [[nodiscard]] std::size_t copy_of(std::size_t index) const noexcept {
+        return static_cast<std::size_t>(release_.first_copy) + index % copies();
+    }
+    /// Returns the number by which messages name a body.
+    [[nodiscard]] std::string number_of(std::size_t index) const;
     [[nodiscard]] Noise noise_of(std::uint64_t seed, std::uint32_t first_run, std::size_t index) const;
     [[nodiscard]] double time_of(std::uint64_t step) const noexcept {
         return static_cast<double>(step) * step_;
