@@ -42,8 +42,9 @@ std::vector<LoadedBody> loaded() {
     return {rubber, rubber};
 }
 
-SimulationReport fly_into(const std::filesystem::path& file, const SceneSimulation::Progress& progress) {
-    SceneSimulation simulation(crowd(), loaded(), 1);
+SimulationReport fly_into(const std::filesystem::path& file, const SceneSimulation::Progress& progress,
+                          int threads) {
+    SceneSimulation simulation(crowd(), loaded(), 1, threads);
     SimulationReport report;
     write_motion_file(file, simulation.motion(), [&](MotionWriter& writer) {
         report = simulation.fly([&](const MotionBlock& block) { writer.write(block); }, progress);
@@ -75,15 +76,15 @@ TEST(CrowdInSections, HasThePosesAndSizesOfOneThatIsSimulatedAtOnce) {
 
 TEST(CrowdInSections, WrittenAsItFliesHasTheBytesOfOneWrittenWhole) {
     const test::TemporaryFolder folder;
-    fly_into(folder / "sections.h5", go_on);
+    fly_into(folder / "sections.h5", go_on, 3);
     write_motion_file(folder / "whole.h5", simulate(crowd(), loaded(), 1, go_on).motion);
     EXPECT_EQ(read_bytes(folder / "sections.h5"), read_bytes(folder / "whole.h5"));
 }
 
 TEST(CrowdInSections, AnInterruptAfterTheFirstSectionLeavesItsCopies) {
     const test::TemporaryFolder folder;
-    const SimulationReport report =
-        fly_into(folder / "cut.h5", [](double done, double total) { return done < 0.97 * total; });
+    const SimulationReport report = fly_into(
+        folder / "cut.h5", [](double done, double total) { return done < 0.96 * total; }, 1);
     EXPECT_TRUE(report.interrupted);
     EXPECT_EQ(report.frames, 3U);
     const Motion whole = simulate(crowd(), loaded(), 1, go_on).motion;
