@@ -22,8 +22,8 @@
 namespace hwy::platform {
 /// Stands in for that of libhwy.so, which measures a clock for 3 ms whenever it is loaded; benchmarks alone
 /// read it.
-std::uint64_t TimerResolution();
-std::uint64_t TimerResolution() {
+std::uint64_t TimerResolution();   // NOLINT(readability-identifier-naming): the library's name
+std::uint64_t TimerResolution() {  // NOLINT(readability-identifier-naming)
     return 0;
 }
 }  // namespace hwy::platform

@@ -333,7 +333,8 @@ std::shared_ptr<const ImmersedBody> PreparedBodies::get(const Body& body, const 
                entry.physics == physics && entry.touches >= touches;
     });
     if (found != entries_.end()) return found->body;
-    auto prepared = std::make_shared<const ImmersedBody>(make_immersed_body(body, physics, fluid, name, touches));
+    auto prepared =
+        std::make_shared<const ImmersedBody>(make_immersed_body(body, physics, fluid, name, touches));
     if (entries_.size() == most_) entries_.erase(entries_.begin());
     entries_.push_back({physics, fluid.density, fluid.viscosity, touches, prepared});
     return prepared;
