@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -17,6 +18,15 @@
 #include "samara/core/base/error.hpp"
 #include "samara/core/base/text.hpp"
 #include "samara/core/base/version.hpp"
+
+namespace hwy::platform {
+/// Stands in for that of libhwy.so, which measures a clock for 3 ms whenever it is loaded; benchmarks alone
+/// read it.
+std::uint64_t TimerResolution();   // NOLINT(readability-identifier-naming): the library's name
+std::uint64_t TimerResolution() {  // NOLINT(readability-identifier-naming)
+    return 0;
+}
+}  // namespace hwy::platform
 
 namespace {
 

@@ -159,8 +159,7 @@ void write_motion(const Scene& scene, const std::vector<LoadedBody>& bodies, con
     SceneSimulation simulation(scene, bodies, 1, request.threads);
     write_motion_file(request.output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("writing the best", "steps");
-        simulation.fly([&](std::size_t body, std::size_t first,
-                           const std::vector<Pose>& poses) { writer.write(body, first, poses); },
+        simulation.fly([&](const MotionBlock& block) { writer.write(block); },
                        [&](double done, double total) {
                            progress.update(done, total);
                            return true;

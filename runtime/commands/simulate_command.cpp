@@ -162,17 +162,19 @@ SimulationReport fly(const Scene& scene, const std::vector<LoadedBody>& loaded, 
     SimulationReport report;
     write_motion_file(output, simulation.motion(), [&](MotionWriter& writer) {
         Progress progress("simulating", "steps");
-        report = simulation.fly(
-            [&](std::size_t body, std::size_t first, const std::vector<Pose>& poses) {
-                writer.write(body, first, poses);
-                writer.write_forces(body, first, simulation.forces());
-            },
-            [&](double done, double total) {
-                progress.update(done, total);
-                return !interrupted;
-            });
-        writer.finish(report.frames);
+        report = simulation.fly([&](const MotionBlock& block) { writer.write(block); },
+                                [&](double done, double total) {
+                                    progress.update(done, total);
+                                    return !interrupted;
+                                });
+        writer.finish(report.frames, report.copies);
     });
+    for (std::size_t i = 0; report.interrupted && i < scene.bodies.size(); ++i) {
+        const auto copies = static_cast<std::size_t>(scene.bodies[i].count);
+        if (report.copies[i] == copies) continue;
+        throw Error(fmt::format("interrupted: {} holds the first {} of the {} copies of '{}', {} frames",
+                                output, report.copies[i], copies, scene.bodies[i].name, report.frames));
+    }
     if (report.interrupted) {
         throw Error(fmt::format("interrupted at {:g} of {:g} s: {} holds the first {} frames",
                                 simulation.motion().times[report.frames - 1],

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -80,6 +81,21 @@ struct Motion {
     [[nodiscard]] const Pose& pose(const BodyMotion& body, int run, int frame, int copy) const {
         return body.poses[index(body, run, frame, copy)];
     }
+};
+
+/// Some of the copies of a body, one after another.
+struct CopySpan {
+    std::size_t first = 0;  ///< number of the first of them
+    std::size_t count = 0;  ///< how many there are; may be 0
+};
+
+/// Poses of some copies of a body at some frames, (run, frame, copy) in row-major order.
+struct MotionBlock {
+    std::size_t body = 0;             ///< number of the body in the motion
+    std::size_t first_frame = 0;      ///< number of the first frame
+    CopySpan copies;                  ///< the copies whose poses these are
+    std::vector<Pose> poses;          ///< in all runs
+    std::vector<FluidForces> forces;  ///< of each pose, in a motion that has them
 };
 
 }  // namespace samara

@@ -98,6 +98,24 @@ void read_bodies_but_poses(const Hdf5Reader& file, Motion& motion) {
     for (auto& [index, body] : bodies) motion.bodies.push_back(std::move(body));
 }
 
+/// Returns `frames` frames of a motion in memory from number `first` on.
+MotionBlock block_of(const Motion& motion, std::size_t index, std::size_t first, std::size_t frames,
+                     const CopySpan& copies) {
+    const BodyMotion& body = motion.bodies[index];
+    MotionBlock block{index, first, copies, {}, {}};
+    for (int run = 0; run < motion.runs; ++run) {
+        for (std::size_t frame = first; frame < first + frames; ++frame) {
+            const auto begin = static_cast<std::ptrdiff_t>(
+                motion.index(body, run, static_cast<int>(frame), static_cast<int>(copies.first)));
+            const auto end = begin + static_cast<std::ptrdiff_t>(copies.count);
+            block.poses.insert(block.poses.end(), body.poses.begin() + begin, body.poses.begin() + end);
+            if (!motion.has_forces) continue;
+            block.forces.insert(block.forces.end(), body.forces.begin() + begin, body.forces.begin() + end);
+        }
+    }
+    return block;
+}
+
 bool holds_motion(const Hdf5Reader& file) {
     return file.has("/time") && file.has("/bodies");
 }
@@ -213,22 +231,14 @@ void write_motion_file(const std::filesystem::path& path, const Motion& motion) 
     check_motion(path, motion);
     write_motion_file(path, motion, [&](MotionWriter& writer) {
         const std::size_t frames = motion.times.size();
-        const std::size_t block = frames_in_block(motion);
-        for (std::size_t first = 0; first < frames; first += block) {
-            const std::size_t count = std::min(block, frames - first);
-            for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
-                const BodyMotion& body = motion.bodies[i];
-                const auto copies = static_cast<std::size_t>(body.copies);
-                std::vector<Pose> poses;
-                std::vector<FluidForces> forces;
-                for (std::size_t run = 0; run < static_cast<std::size_t>(motion.runs); ++run) {
-                    const std::size_t begin = (run * frames + first) * copies;
-                    poses.insert(poses.end(), &body.poses[begin], &body.poses[begin] + count * copies);
-                    if (!motion.has_forces) continue;
-                    forces.insert(forces.end(), &body.forces[begin], &body.forces[begin] + count * copies);
+        const std::size_t planned = frames_in_block(motion);
+        for (std::size_t section = 0; section < section_count(motion); ++section) {
+            for (std::size_t first = 0; first < frames; first += planned) {
+                const std::size_t count = std::min(planned, frames - first);
+                for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+                    const CopySpan copies = copies_in_section(motion, motion.bodies[i], section);
+                    writer.write(block_of(motion, i, first, count, copies));
                 }
-                writer.write(i, first, poses);
-                writer.write_forces(i, first, forces);
             }
         }
     });

@@ -52,23 +52,25 @@ std::string group_of(const BodyMotion& body) {
     return "/bodies/" + body.name;
 }
 
-std::size_t poses_in_frame(const Motion& motion) {
-    std::size_t poses = 0;
-    for (const BodyMotion& body : motion.bodies) poses += static_cast<std::size_t>(body.copies);
-    return poses * static_cast<std::size_t>(motion.runs);
+std::size_t pieces_of(std::size_t whole, std::size_t most) {
+    return (whole + most - 1) / most;
 }
 
 /// Returns the size of the pieces where `whole` is cut into the fewest about equal pieces of at most `most`.
 std::size_t even_piece(std::size_t whole, std::size_t most) {
-    const std::size_t pieces = (whole + most - 1) / most;
-    return (whole + pieces - 1) / pieces;
+    return pieces_of(whole, pieces_of(whole, most));
+}
+
+/// Returns the copies of a body in a section, about.
+std::size_t section_of(const Motion& motion, const BodyMotion& body) {
+    return pieces_of(static_cast<std::size_t>(body.copies), section_count(motion));
 }
 
 /// Returns the shape of a chunk: the frames of a block of as many copies, and then runs, as fit.
 std::vector<hsize_t> chunk_of(const Motion& motion, const BodyMotion& body, hsize_t components) {
     const std::size_t frames = frames_in_block(motion);
     const std::size_t copies =
-        even_piece(static_cast<std::size_t>(body.copies), std::max<std::size_t>(rows_in_chunk / frames, 1));
+        even_piece(section_of(motion, body), std::max<std::size_t>(rows_in_chunk / frames, 1));
     const std::size_t runs = even_piece(static_cast<std::size_t>(motion.runs),
                                         std::max<std::size_t>(rows_in_chunk / (frames * copies), 1));
     return {runs, frames, copies, components};
@@ -156,64 +158,81 @@ MotionWriter::MotionWriter(Hdf5Writer& file, const Motion& motion) : file_(file)
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) write_body(file, motion, i);
 }
 
-void MotionWriter::write(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses) {
-    const BodyMotion& written = motion_.bodies[body];
-    check_poses("motion", written.name, poses);
+void MotionWriter::write(const MotionBlock& block) {
+    const BodyMotion& body = motion_.bodies[block.body];
+    check_poses("motion", body.name, block.poses);
     const auto runs = static_cast<hsize_t>(motion_.runs);
-    const auto copies = static_cast<hsize_t>(written.copies);
-    const hsize_t frames = poses.size() / (runs * copies);
+    const hsize_t copies = block.copies.count;
+    const hsize_t frames = copies == 0 ? 0 : block.poses.size() / (runs * copies);
     if (frames == 0) return;
-    std::vector<double> values;
     for (const Series& series : all_series) {
-        values.resize(poses.size() * series.components);
-        for (std::size_t i = 0; i < poses.size(); ++i) {
-            series.take(poses[i], &values[i * series.components]);
+        values_.resize(block.poses.size() * series.components);
+        for (std::size_t i = 0; i < block.poses.size(); ++i) {
+            series.take(block.poses[i], &values_[i * series.components]);
         }
-        file_.write_block(group_of(written) + "/" + series.name, values, {0, first_frame, 0, 0},
+        file_.write_block(group_of(body) + "/" + series.name, values_,
+                          {0, block.first_frame, block.copies.first, 0},
                           {runs, frames, copies, series.components});
     }
+    if (!block.forces.empty()) write_forces(block);
 }
 
-void MotionWriter::write_forces(std::size_t body, std::size_t first_frame,
-                                const std::vector<FluidForces>& forces) {
-    const BodyMotion& written = motion_.bodies[body];
+void MotionWriter::write_forces(const MotionBlock& block) {
     const auto runs = static_cast<hsize_t>(motion_.runs);
-    const auto copies = static_cast<hsize_t>(written.copies);
-    const hsize_t frames = forces.size() / (runs * copies);
-    if (frames == 0) return;
-    std::vector<double> values(forces.size() * components_of_wrench);
+    const hsize_t copies = block.copies.count;
+    values_.resize(block.forces.size() * components_of_wrench);
     for (const auto& [name, part] : parts_of_fluid_forces) {
-        for (std::size_t i = 0; i < forces.size(); ++i) {
-            const Wrench& wrench = forces[i].*part;
-            take(wrench.moment, &values[i * components_of_wrench]);
-            take(wrench.force, &values[i * components_of_wrench + 3]);
+        for (std::size_t i = 0; i < block.forces.size(); ++i) {
+            const Wrench& wrench = block.forces[i].*part;
+            take(wrench.moment, &values_[i * components_of_wrench]);
+            take(wrench.force, &values_[i * components_of_wrench + 3]);
         }
-        file_.write_block(forces_of(written.name, name), values, {0, first_frame, 0, 0},
-                          {runs, frames, copies, components_of_wrench});
+        file_.write_block(forces_of(motion_.bodies[block.body].name, name), values_,
+                          {0, block.first_frame, block.copies.first, 0},
+                          {runs, block.forces.size() / (runs * copies), copies, components_of_wrench});
     }
 }
 
-void MotionWriter::finish(std::size_t frames) {
-    if (frames == motion_.times.size()) return;
-    file_.shorten("/time", {frames});
-    for (const BodyMotion& body : motion_.bodies) {
+void MotionWriter::finish(std::size_t frames, const std::vector<std::size_t>& copies) {
+    if (frames < motion_.times.size()) file_.shorten("/time", {frames});
+    const auto runs = static_cast<hsize_t>(motion_.runs);
+    for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
+        const BodyMotion& body = motion_.bodies[i];
+        if (frames == motion_.times.size() && copies[i] == static_cast<std::size_t>(body.copies)) continue;
         for (const Series& series : all_series) {
-            file_.shorten(group_of(body) + "/" + series.name,
-                          {static_cast<hsize_t>(motion_.runs), frames, static_cast<hsize_t>(body.copies),
-                           series.components});
+            file_.shorten(group_of(body) + "/" + series.name, {runs, frames, copies[i], series.components});
         }
+        if (!body.sizes.empty()) file_.shorten(group_of(body) + "/size", {runs, copies[i]});
         for (const auto& [name, part] : parts_of_fluid_forces) {
             if (!motion_.has_forces) break;
-            file_.shorten(forces_of(body.name, name),
-                          {static_cast<hsize_t>(motion_.runs), frames, static_cast<hsize_t>(body.copies),
-                           components_of_wrench});
+            file_.shorten(forces_of(body.name, name), {runs, frames, copies[i], components_of_wrench});
         }
     }
+}
+
+std::size_t section_count(const Motion& motion) {
+    std::size_t bodies = 0;
+    std::size_t most_copies = 1;
+    for (const BodyMotion& body : motion.bodies) {
+        bodies += static_cast<std::size_t>(motion.runs) * static_cast<std::size_t>(body.copies);
+        most_copies = std::max(most_copies, static_cast<std::size_t>(body.copies));
+    }
+    return std::clamp<std::size_t>(pieces_of(bodies, bodies_in_section), 1, most_copies);
+}
+
+CopySpan copies_in_section(const Motion& motion, const BodyMotion& body, std::size_t section) {
+    const auto copies = static_cast<std::size_t>(body.copies);
+    const auto chunk = static_cast<std::size_t>(chunk_of(motion, body, 1)[2]);
+    const std::size_t length = pieces_of(section_of(motion, body), chunk) * chunk;  // no chunk is in two
+    const std::size_t first = std::min(copies, section * length);
+    return {first, std::min(length, copies - first)};
 }
 
 std::size_t frames_in_block(const Motion& motion) {
-    const std::size_t in_memory =
-        block_bytes / (std::max<std::size_t>(1, poses_in_frame(motion)) * row_bytes(motion));
+    std::size_t poses = 0;
+    for (const BodyMotion& body : motion.bodies) poses += section_of(motion, body);
+    poses *= static_cast<std::size_t>(motion.runs);
+    const std::size_t in_memory = block_bytes / (std::max<std::size_t>(1, poses) * row_bytes(motion));
     return even_piece(motion.times.size(), std::clamp<std::size_t>(in_memory, 1, most_frames));
 }
 

@@ -10,6 +10,7 @@
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/kernel/state_block.hpp"
 #include "samara/core/physics/pose.hpp"
+#include "samara/motion/motion_writer.hpp"
 #include "samara/scene/table_errors_on_path.hpp"
 
 namespace samara {
@@ -17,10 +18,10 @@ namespace {
 
 // Bytes of a copy in a run while it is simulated (runtime/core/simulation/body_group.hpp), and of its poses
 // in a block while that is written.
-constexpr double bytes_of_a_flight = static_cast<double>(sizeof(StateBlock)) / StateBlock::size +
-                                     2.0 * sizeof(Pose) + sizeof(Quaterniond) + sizeof(TableErrorsOnPath);
+constexpr double bytes_of_a_flight =
+    static_cast<double>(sizeof(StateBlock)) / StateBlock::size + 2.0 * sizeof(Pose) + sizeof(Quaterniond);
 constexpr double bytes_in_file = 13.0 * sizeof(double);
-constexpr double bytes_of_a_written_pose = sizeof(Pose) + 4.0 * sizeof(double);
+constexpr double bytes_of_a_written_pose = 2.0 * sizeof(Pose) + 4.0 * sizeof(double);  // two blocks
 constexpr double bytes_in_block = 64U << 20U;
 // Bytes of a frame of the one copy that is measured at a time, and of its time.
 constexpr double bytes_of_a_measured_frame = 170.0;
@@ -43,15 +44,21 @@ RunNeeds needs_of(const Scene& scene, int runs, const std::vector<LoadedBody>& l
     const double frames = std::floor(scene.duration * scene.frame_rate) + 1.0;
     double samples = 0.0;
     double touching = 0.0;
+    double sizes = 0.0;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
         const double copies = static_cast<double>(body.count) * runs;
         samples += copies;
+        sizes += body.spreads_size() ? copies * sizeof(double) : 0.0;
         if (!loaded.empty()) touching += copies * bytes_of_a_touching_body(scene, body, loaded[i]);
     }
-    const double block = std::min(frames * samples, std::max(samples, bytes_in_block / bytes_in_file));
-    const double simulation = samples * bytes_of_a_flight + touching + block * bytes_of_a_written_pose +
-                              frames * 2.0 * sizeof(double);
+    // A section of bodies that do not touch each other is simulated at a time.
+    const double least = static_cast<double>(scene.bodies.size()) * runs;
+    const double flown =
+        scene.bodies_collide ? samples : std::min(samples, std::max<double>(bodies_in_section, least));
+    const double block = std::min(frames * flown, std::max(flown, bytes_in_block / bytes_in_file));
+    const double simulation = flown * bytes_of_a_flight + touching * flown / samples + sizes +
+                              block * bytes_of_a_written_pose + frames * 2.0 * sizeof(double);
     const double measuring =
         frames * bytes_of_a_measured_frame + std::min(frames * samples * sizeof(Pose), bytes_in_block);
     RunNeeds needs;

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "samara/core/simulation/simulation.hpp"
@@ -33,10 +37,11 @@ struct BodyReport : StepReport {
 
 /// Summary of a simulation's steps over all bodies, copies and runs.
 struct SimulationReport : StepReport {
-    std::size_t frames = 0;          ///< frames that were simulated
-    bool interrupted = false;        ///< whether `progress` ended the simulation before the last frame
-    double seconds = 0.0;            ///< wall time of the stepping
-    std::vector<BodyReport> bodies;  ///< one for each body of the scene
+    std::size_t frames = 0;           ///< frames that were simulated
+    std::vector<std::size_t> copies;  ///< of each body: those that were simulated for all these frames
+    bool interrupted = false;         ///< whether `progress` ended the simulation before the last frame
+    double seconds = 0.0;             ///< wall time of the stepping
+    std::vector<BodyReport> bodies;   ///< one for each body of the scene
 };
 
 /// Simulates every body of a scene with every copy in `runs` runs that differ by their noise alone. Frames
@@ -44,12 +49,10 @@ struct SimulationReport : StepReport {
 /// body is held in place until its start.
 class SceneSimulation {
   public:
-    /// Receives the block's poses of body number `body` from frame `first_frame` on: (run, frame, copy) in
-    /// row-major order.
-    using Sink =
-        std::function<void(std::size_t body, std::size_t first_frame, const std::vector<Pose>& poses)>;
-    /// Is called with the copies x runs x steps done and in total at every frame and, where bodies touch,
-    /// every step; returns false to end the simulation at this frame, or with the one before.
+    /// Receives the blocks of the motion one after another, not always on the thread of the caller.
+    using Sink = std::function<void(const MotionBlock& block)>;
+    /// Is called with the copies x runs x steps done and in total at every frame, in a crowd less often, and,
+    /// where bodies touch, every step; returns false to end the simulation at this frame, or with one before.
     using Progress = std::function<bool(double done, double total)>;
 
     /// Prepares a simulation. `loaded[i]` is the body of scene.bodies[i]. `threads`: 0 for all cores; the
@@ -58,32 +61,44 @@ class SceneSimulation {
     /// below the ground.
     SceneSimulation(const Scene& scene, const std::vector<LoadedBody>& loaded, int runs, int threads = 0,
                     bool forces = false);
+    ~SceneSimulation();
+    SceneSimulation(const SceneSimulation&) = delete;
+    SceneSimulation& operator=(const SceneSimulation&) = delete;
 
     /// Returns the motion without its poses.
     [[nodiscard]] const Motion& motion() const { return motion_; }
 
-    /// Simulates from the first frame to the last, once. Blocks are those of frames_in_block(), so memory
-    /// does not grow with the number of frames.
+    /// Simulates from the first frame to the last, once. Blocks are those of frames_in_block() and, where
+    /// bodies do not touch each other, of the copies of a section, so memory grows neither with the number of
+    /// frames nor with a crowd. An interrupt leaves the frames so far or, after the first section, the
+    /// copies.
     SimulationReport fly(const Sink& sink, const Progress& progress);
 
-    /// Returns the forces beside the poses that the sink is given; empty where they were not asked for.
-    [[nodiscard]] const std::vector<FluidForces>& forces() const { return given_forces_; }
-
   private:
-    /// Sums over the frames of a body so far, copy by copy, so that they are added in one order.
-    struct Frames {
-        std::vector<Quaterniond> last;  ///< orientations at the last frame
-        std::vector<TableErrorsOnPath> table_errors;
-    };
-    void take_frame(std::size_t group, double time, Pose* poses, FluidForces* forces, std::size_t run_stride);
-    bool advance_to(double time, const Progress& progress);
+    struct Part;
+    /// Returns how many bodies of a group there are for each whose table errors are judged.
+    [[nodiscard]] std::size_t judged_every(std::size_t body) const;
+    /// Prepares the bodies of a section, in parts that are simulated side by side.
+    void begin_section(std::size_t section);
+    [[nodiscard]] std::unique_ptr<Part> part_of(const std::vector<CopySpan>& copies, int threads) const;
+    /// Simulates the bodies of the section into the blocks, one for each body. Returns the number of frames
+    /// that all are simulated for; sets `stop` where `progress` ends it.
+    std::size_t fly_block(std::vector<MotionBlock>& blocks, std::size_t planned, const Progress& progress,
+                          std::atomic<bool>& stop);
+    /// Keeps a part's poses as frame number `frame` of the `planned` frames of the blocks.
+    void take_frame(Part& part, std::size_t frame, std::size_t planned, std::vector<MotionBlock>& blocks);
 
+    Scene scene_;
+    std::vector<LoadedBody> loaded_;
     Motion motion_;
     int threads_;
     double piece_;  ///< s, after which progress is told at the latest; infinite: by frames alone
-    Simulation simulation_;
-    std::vector<Frames> frames_;
-    std::vector<FluidForces> given_forces_;
+    Simulation empty_;
+    std::vector<CopySpan> section_;  ///< of each body: the copies that are simulated now
+    std::vector<std::unique_ptr<Part>> parts_;
+    /// Sums over the frames so far of each body, copy by copy, so that they are added in one order.
+    std::vector<std::vector<TableErrorsOnPath>> table_errors_;
+    std::atomic<std::uint64_t> steps_ = 0;
     double total_steps_ = 0.0;
 };
 

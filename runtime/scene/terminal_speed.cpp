@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,9 +14,13 @@
 namespace samara {
 
 double largest_projected_area(const Body& body) {
+    std::vector<Vector3d> areas(body.surface.triangle_count());
+    for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = area_vector(body.surface, t);
     double largest = 0.0;
     const auto visit = [&](const Vector3d& direction) {
-        largest = std::max(largest, projected_area(body.surface, direction));
+        double area = 0.0;
+        for (const Vector3d& triangle : areas) area += std::abs(triangle.dot(direction));
+        largest = std::max(largest, 0.5 * area);
     };
     const Matrix3d axes = principal_axes(body.moments);
     for (int i = 0; i < 3; ++i) visit(axes.col(i));
@@ -35,7 +40,7 @@ double terminal_speed(const Body& body, const Fluid& fluid, double mass, double 
 
 void require_sizes_in_tables(const Scene& scene, const SceneBody& scene_body, const LoadedBody& loaded) {
     if (!scene_body.spreads_size() || scene_body.table_reynolds_number) return;
-    const auto body = loaded.prepared->get(*loaded.body, scene_body, scene.fluid, scene_body.name);
+    const auto body = loaded.prepared->get(*loaded.body, scene_body, scene.fluid, scene_body.name, false);
     if (!body->tables) return;
     const double speed = terminal_speed(*loaded.body, scene.fluid, body->mass, scene.gravity.norm());
     if (!(speed > 0.0)) return;

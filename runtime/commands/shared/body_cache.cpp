@@ -141,12 +141,12 @@ void BodyCache::remove_oldest() const {
 }
 
 std::optional<std::string> body_key(const std::filesystem::path& file) {
-    const std::string bytes = read_bytes(file);
     std::string format = file.extension().string();
     std::transform(format.begin(), format.end(), format.begin(),
                    [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    if (format == ".geo" && may_depend_on_more(bytes)) return std::nullopt;
-    return fmt::format("{}\n{}\n{}\n{}", file.filename().string(), content_hash(bytes), version, mesher());
+    if (format == ".geo" && may_depend_on_more(read_bytes(file))) return std::nullopt;
+    return fmt::format("{}\n{}\n{}\n{}", file.filename().string(), file_content_hash(file), version,
+                       mesher());
 }
 
 }  // namespace samara

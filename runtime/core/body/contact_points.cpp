@@ -1,9 +1,12 @@
 #include "samara/core/body/contact_points.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "samara/core/surface/octahedral_map.hpp"
 #include "samara/core/surface/surface_edges.hpp"
@@ -18,14 +21,72 @@ constexpr double sharp = 0.6;
 // stands off its place (docs/reference/scene-file.md#ground). The facets of a sphere of 1280 triangles reach
 // 0.4 % inwards.
 constexpr double smoothing = 0.01;
+constexpr double vanishing = 12.0;      // widths, at which the weight is 6e-6
 constexpr int directions = 512;         // the directions in which corners are sought: 9 degrees apart
 constexpr int subdivisions = 16;        // of the map of round points
 constexpr std::size_t enough = 20'000;  // vertices to smooth a side over
 
-/// Vertices with the area of the surface that belongs to each.
+constexpr std::ptrdiff_t in_box = 16;  // vertices in each box but the last; an even number
+
+/// Vertices with the area of the surface that belongs to each, box by box of neighbours.
 struct WeightedPoints {
     Eigen::MatrixX3d points;
     Eigen::VectorXd areas;
+    std::vector<std::size_t> turns;   ///< of each point: its place among the vertices
+    std::vector<std::size_t> places;  ///< of each vertex: its place among the points
+    Eigen::MatrixX3d centers;         ///< of the boxes
+    Eigen::MatrixX3d halves;          ///< half the lengths of the boxes
+};
+
+/// Distances (m) that points reach along a direction. Of most boxes the bound is enough.
+class Reaches {
+  public:
+    explicit Reaches(const WeightedPoints& points)
+        : points_(points), reaches_(points.areas.size()), is_near_(points.turns.size() / 64 + 1) {}
+
+    /// Finds the points that reach `least` or farther, and others of their boxes.
+    void find(const Vector3d& direction, double least) {
+        bounds_.noalias() = points_.centers * direction;
+        bounds_.noalias() += points_.halves * direction.cwiseAbs();
+        boxes_.clear();
+        farthest_ = -std::numeric_limits<double>::infinity();
+        for (Eigen::Index box = 0; box < bounds_.size(); ++box) {
+            if (bounds_[box] < least) continue;
+            const Eigen::Index first = box * in_box;
+            const Eigen::Index count = std::min(in_box, reaches_.size() - first);
+            reaches_.segment(first, count).noalias() = points_.points.middleRows(first, count) * direction;
+            farthest_ = std::max(farthest_, reaches_.segment(first, count).maxCoeff());
+            boxes_.push_back(box);
+        }
+    }
+    /// Returns the farthest of those found; minus infinity where there is none.
+    [[nodiscard]] double farthest() const { return farthest_; }
+    /// Calls `use` with the place and the reach of those that reach `least`, in the order of the vertices.
+    template <typename Use>
+    void for_each_from(double least, const Use& use) {
+        for (const Eigen::Index box : boxes_) {
+            const Eigen::Index first = box * in_box;
+            for (Eigen::Index i = first; i < std::min(first + in_box, reaches_.size()); ++i) {
+                const std::size_t turn = points_.turns[static_cast<std::size_t>(i)];
+                is_near_[turn / 64] |= std::uint64_t{reaches_[i] >= least} << turn % 64;
+            }
+        }
+        for (std::size_t word = 0; word < is_near_.size(); ++word) {
+            for (std::uint64_t left = std::exchange(is_near_[word], 0); left != 0; left &= left - 1) {
+                const std::size_t turn = 64 * word + static_cast<std::size_t>(std::countr_zero(left));
+                const auto place = static_cast<Eigen::Index>(points_.places[turn]);
+                use(place, reaches_[place]);
+            }
+        }
+    }
+
+  private:
+    const WeightedPoints& points_;
+    Eigen::VectorXd reaches_;
+    Eigen::VectorXd bounds_;
+    std::vector<Eigen::Index> boxes_;  ///< those that were looked into
+    std::vector<std::uint64_t> is_near_;
+    double farthest_ = 0.0;
 };
 
 std::vector<double> vertex_areas(const Surface& surface) {
@@ -87,10 +148,15 @@ std::vector<Vector3d> extreme_points(const std::vector<Vector3d>& points) {
     if (points.empty()) return {};
     for (int i = 0; i < directions; ++i) {
         const Vector3d direction = spiral_direction(i);
-        const auto farthest = std::max_element(
-            points.begin(), points.end(),
-            [&](const Vector3d& a, const Vector3d& b) { return a.dot(direction) < b.dot(direction); });
-        chosen.push_back(static_cast<std::size_t>(farthest - points.begin()));
+        std::size_t farthest = 0;
+        double most = -std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const double along = points[k].dot(direction);
+            if (along <= most) continue;
+            most = along;
+            farthest = k;
+        }
+        chosen.push_back(farthest);
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
@@ -120,33 +186,66 @@ std::vector<Vector3d> well_spread(const std::vector<Vector3d>& points) {
     return spread;
 }
 
+/// Puts the vertices from `first` to before `end` in the order of boxes, by halves along the longest side.
+void put_into_boxes(const std::vector<Vector3d>& vertices, std::vector<std::size_t>& order,
+                    std::ptrdiff_t first, std::ptrdiff_t end) {
+    if (end - first <= in_box) return;
+    Vector3d low = vertices[order[static_cast<std::size_t>(first)]];
+    Vector3d high = low;
+    for (std::ptrdiff_t i = first; i < end; ++i) {
+        low = low.cwiseMin(vertices[order[static_cast<std::size_t>(i)]]);
+        high = high.cwiseMax(vertices[order[static_cast<std::size_t>(i)]]);
+    }
+    Eigen::Index axis = 0;
+    (high - low).maxCoeff(&axis);
+    const std::ptrdiff_t middle = first + (end - first + in_box) / (2 * in_box) * in_box;
+    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + end,
+                     [&](std::size_t a, std::size_t b) { return vertices[a][axis] < vertices[b][axis]; });
+    put_into_boxes(vertices, order, first, middle);
+    put_into_boxes(vertices, order, middle, end);
+}
+
 /// Returns `enough` of the vertices, evenly chosen where there are more.
 WeightedPoints thinned(const std::vector<Vector3d>& vertices, const std::vector<double>& areas) {
     const std::size_t stride = 1 + vertices.size() / enough;
-    const auto count = static_cast<Eigen::Index>((vertices.size() + stride - 1) / stride);
-    WeightedPoints result{Eigen::MatrixX3d(count, 3), Eigen::VectorXd(count)};
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const std::size_t vertex = static_cast<std::size_t>(i) * stride;
-        result.points.row(i) = vertices[vertex].transpose();
-        result.areas[i] = areas[vertex];
+    const std::size_t count = (vertices.size() + stride - 1) / stride;
+    std::vector<std::size_t> order(count);
+    for (std::size_t i = 0; i < count; ++i) order[i] = i * stride;
+    // Eigen rounds the last of an odd number otherwise than the rest: it stays the last.
+    put_into_boxes(vertices, order, 0, static_cast<std::ptrdiff_t>(count - count % 2));
+    const auto rows = static_cast<Eigen::Index>(count);
+    const Eigen::Index boxes = (rows + in_box - 1) / in_box;
+    WeightedPoints result;
+    result.points.resize(rows, 3);
+    result.areas.resize(rows);
+    result.places.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        result.points.row(static_cast<Eigen::Index>(i)) = vertices[order[i]].transpose();
+        result.areas[static_cast<Eigen::Index>(i)] = areas[order[i]];
+        result.turns.push_back(order[i] / stride);
+        result.places[result.turns.back()] = i;
+    }
+    result.centers.resize(boxes, 3);
+    result.halves.resize(boxes, 3);
+    for (Eigen::Index i = 0; i < boxes; ++i) {
+        const auto within = result.points.middleRows(i * in_box, std::min(in_box, rows - i * in_box));
+        result.centers.row(i) = 0.5 * (within.colwise().maxCoeff() + within.colwise().minCoeff());
+        result.halves.row(i) = 0.5 * (within.colwise().maxCoeff() - within.colwise().minCoeff());
     }
     return result;
 }
 
 /// Returns the mean of the points near the farthest one, weighted by how near they are to it and by their
-/// area. `reaches`: of the points along the direction.
-Vector3d smoothed_extreme(const WeightedPoints& points, const Eigen::VectorXd& reaches, double width) {
-    constexpr double vanishing = 12.0;  // widths, at which the weight is 6e-6
-    const double farthest = reaches.maxCoeff();
-    const double nearest = farthest - vanishing * width;
+/// area. `reaches`: of those within `vanishing` widths of it.
+Vector3d smoothed_extreme(const WeightedPoints& points, Reaches& reaches, double width) {
+    const double farthest = reaches.farthest();
     double weights = 0.0;
     Vector3d sum = Vector3d::Zero();
-    for (Eigen::Index i = 0; i < reaches.size(); ++i) {
-        if (reaches[i] < nearest) continue;
-        const double weight = points.areas[i] * std::exp((reaches[i] - farthest) / width);
+    reaches.for_each_from(farthest - vanishing * width, [&](Eigen::Index place, double reach) {
+        const double weight = points.areas[place] * std::exp((reach - farthest) / width);
         weights += weight;
-        sum += weight * points.points.row(i).transpose();
-    }
+        sum += weight * points.points.row(place).transpose();
+    });
     return sum / weights;
 }
 
@@ -163,22 +262,26 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
 
     const WeightedPoints points = thinned(vertices, vertex_areas(surface));
     const double width = smoothing * result.bounding_radius;
-    Eigen::VectorXd reaches(points.areas.size());
+    const double rounding = 1e-9 * result.bounding_radius;
+    Reaches reaches(points);
     const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
     const bool has_round_sides = std::any_of(nodes.begin(), nodes.end(), [&](const Vector3d& direction) {
-        reaches.noalias() = points.points * direction;
-        return reach_of(result.corners, direction) < reaches.maxCoeff() - width;
+        const double of_corners = reach_of(result.corners, direction);
+        reaches.find(direction, of_corners + width - rounding);
+        return of_corners < reaches.farthest() - width;
     });
     if (!has_round_sides) {
         result.middle = mean_of(result);
         return result;
     }
+    Vector3d last = vertices.front();  // lies near the farthest point of the next direction
     for (const Vector3d& direction : nodes) {
-        reaches.noalias() = points.points * direction;
-        Vector3d point = smoothed_extreme(points, reaches, width);
+        reaches.find(direction, last.dot(direction) - vanishing * width - rounding);
+        last = smoothed_extreme(points, reaches, width);
+        result.round.push_back(last);
         // Beside a sharp edge the smoothed point must stay within the hull, or it would hold the edge up.
-        if (result.corners.empty()) point += (reaches.maxCoeff() - point.dot(direction)) * direction;
-        result.round.push_back(point);
+        if (!result.corners.empty()) continue;
+        result.round.back() += (reaches.farthest() - last.dot(direction)) * direction;
     }
     result.middle = mean_of(result);
     return result;

@@ -144,7 +144,7 @@ void prepare(ImmersedBody& body) {
 }
 
 ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
-                                const std::string& name) {
+                                const std::string& name, bool touches) {
     const Matrix6d fluid_inertia = fluid_inertia_of(body, physics, fluid, name);
     require_tables(body, physics, name);
     require_surface_loads(body, physics, name);
@@ -173,7 +173,7 @@ ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, co
                         "compute the Kirchhoff tensor with more triangles",
                         name));
     }
-    result.contact_points = contact_points(body.surface, mass.center_of_mass);
+    if (touches) result.contact_points = contact_points(body.surface, mass.center_of_mass);
     result.rotation_scale = rotation_scale(result.inertia, result.added_mass);
     result.length = reference_length(body.moments.surface_area);
     result.reference_area = std::numbers::pi * result.length * result.length / 4.0;
@@ -325,16 +325,18 @@ void require_sound(const Body& body, const BodyPhysics& physics, const Fluid& fl
 }
 
 std::shared_ptr<const ImmersedBody> PreparedBodies::get(const Body& body, const BodyPhysics& physics,
-                                                        const Fluid& fluid, const std::string& name) {
+                                                        const Fluid& fluid, const std::string& name,
+                                                        bool touches) {
     const std::lock_guard lock(mutex_);
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
         return entry.fluid_density == fluid.density && entry.viscosity == fluid.viscosity &&
-               entry.physics == physics;
+               entry.physics == physics && entry.touches >= touches;
     });
     if (found != entries_.end()) return found->body;
-    auto prepared = std::make_shared<const ImmersedBody>(make_immersed_body(body, physics, fluid, name));
+    auto prepared =
+        std::make_shared<const ImmersedBody>(make_immersed_body(body, physics, fluid, name, touches));
     if (entries_.size() == most_) entries_.erase(entries_.begin());
-    entries_.push_back({physics, fluid.density, fluid.viscosity, prepared});
+    entries_.push_back({physics, fluid.density, fluid.viscosity, touches, prepared});
     return prepared;
 }
 

@@ -18,7 +18,7 @@ namespace samara {
 
 /// The part of a body in a fluid that its contacts depend on; body axes about the centre of mass, SI units.
 struct TouchingBody {
-    ContactPoints contact_points;
+    ContactPoints contact_points;                     ///< none where it touches nothing
     Matrix6d inertia = Matrix6d::Identity();          ///< K = K_body + rho_f K_fluid, order (omega, v)
     Matrix6d inverse_inertia = Matrix6d::Identity();  ///< K^-1; of an ImmersedBody set by prepare()
 };
@@ -89,8 +89,9 @@ void prepare(ImmersedBody& body);
 /// and t with it. `name` is the body's name in messages. Throws Error where the body lacks what its physics
 /// needs (the Kirchhoff tensor; tables: the message names the command that makes them), where a number is not
 /// finite or out of its range (the message names the member), and where the inertia is not that of any body.
+/// `touches`: whether it may touch something; without it there are no contact points.
 ImmersedBody make_immersed_body(const Body& body, const BodyPhysics& physics, const Fluid& fluid,
-                                const std::string& name = "body");
+                                const std::string& name = "body", bool touches = true);
 
 /// Throws Error, one line that names the body and the member, where a number that make_immersed_body needs is
 /// not finite or not in its range, or where tables or surface contradict themselves. A Kirchhoff tensor or
@@ -105,15 +106,18 @@ class PreparedBodies {
     /// Keeps the `most` bodies that were made last.
     explicit PreparedBodies(std::size_t most = 64) : most_(most) {}
     /// Returns make_immersed_body() of the body, computed once for equal physics and fluid. The name is that
-    /// of the first caller. Throws as make_immersed_body() does.
+    /// of the first caller; contact points may be there that nobody asked for. Throws as make_immersed_body()
+    /// does.
     [[nodiscard]] std::shared_ptr<const ImmersedBody> get(const Body& body, const BodyPhysics& physics,
-                                                          const Fluid& fluid, const std::string& name);
+                                                          const Fluid& fluid, const std::string& name,
+                                                          bool touches = true);
 
   private:
     struct Entry {
         BodyPhysics physics;
         double fluid_density;
         double viscosity;
+        bool touches;
         std::shared_ptr<const ImmersedBody> body;
     };
 

@@ -1,6 +1,7 @@
 #include "samara/core/files/content_hash.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +12,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #define XXH_INLINE_ALL
 #include <fmt/format.h>
@@ -74,7 +74,7 @@ std::string content_hash(const InputFile& file, std::uint64_t size) {
     const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
                                                                                 XXH3_freeState);
     XXH3_128bits_reset(state.get());
-    std::vector<char> part(1U << 20U);
+    std::array<char, 1U << 17U> part;  // NOLINT(cppcoreguidelines-pro-type-member-init): it is read into
     for (std::uint64_t place = 0; place < size;) {
         const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), size - place));
         const std::size_t count = file.read_at(place, part.data(), wanted);
@@ -105,7 +105,12 @@ void append_digest(const std::filesystem::path& path) {
 }
 
 bool has_digest(const InputFile& file) {
-    return end_of(file).starts_with(label);
+    return !digest_in(file).empty();
+}
+
+std::string digest_in(const InputFile& file) {
+    const std::string end = end_of(file);
+    return end.starts_with(label) ? end.substr(label.size(), 32) : "";
 }
 
 bool verify_digest(const InputFile& file) {

@@ -33,6 +33,10 @@ void append_digest(const std::filesystem::path& file);
 /// Returns whether the file ends in a digest. Throws Error where it cannot be read.
 bool has_digest(const InputFile& file);
 
+/// Returns the hash that the file's digest holds; empty where it has none. Throws Error where it cannot be
+/// read.
+std::string digest_in(const InputFile& file);
+
 /// Returns has_digest(). Throws Error where the digest is not that of the file's bytes. A file that has not
 /// changed since this process last verified it is not read again.
 bool verify_digest(const InputFile& file);

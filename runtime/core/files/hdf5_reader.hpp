@@ -69,6 +69,8 @@ class Hdf5Reader {
     [[nodiscard]] H5::Group open_group(const std::string& name) const;
     [[nodiscard]] H5::DataSet open(const std::string& name) const;
     [[nodiscard]] H5::DataSet open(const std::string& name, const std::vector<hsize_t>& dimensions) const;
+    [[nodiscard]] std::vector<hsize_t> shape_in_file(const std::string& name,
+                                                     const H5::DataSet& dataset) const;
     [[nodiscard]] H5::Attribute open_attribute(const std::string& object, const std::string& name) const;
     template <typename Value>
     [[nodiscard]] std::vector<Value> values(const std::string& name, const H5::DataSet& dataset,
@@ -81,6 +83,7 @@ class Hdf5Reader {
     InputFile input_;
     bool has_digest_;
     H5::H5File file_;
+    mutable std::set<std::string> plain_;   ///< paths to which plain links lead
     mutable std::set<std::string> judged_;  ///< datasets whose storage is known to be sound
     mutable hsize_t claimed_ = 0;           ///< bytes: of these datasets together
 };

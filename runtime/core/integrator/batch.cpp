@@ -188,6 +188,21 @@ BodyState Batch::own_state(std::size_t index) const noexcept {
     return state_of(blocks_[index / StateBlock::size], index % StateBlock::size);
 }
 
+std::size_t Batch::first_not_finite() const noexcept {
+    constexpr std::size_t rows_of_place_and_velocity = 13;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        std::array<double, StateBlock::size> none = {};  // NaN where a number is not finite
+        for (std::size_t row = 0; row < rows_of_place_and_velocity; ++row) {
+            for (std::size_t lane = 0; lane < none.size(); ++lane)
+                none[lane] += 0.0 * blocks_[i].numbers[row][lane];
+        }
+        for (std::size_t lane = 0; lane < blocks_[i].bodies; ++lane) {
+            if (none[lane] != 0.0) return i * StateBlock::size + lane;
+        }
+    }
+    return size_;
+}
+
 void Batch::set_noise(std::size_t index, const Noise& noise) noexcept {
     const auto words = noise.words();
     StateBlock& block = blocks_[index / StateBlock::size];

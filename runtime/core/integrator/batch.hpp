@@ -27,6 +27,8 @@ class Batch {
     Batch(const ImmersedBody& body, std::size_t count, Precision precision = Precision::double_precision);
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Takes the body with contact points, equal otherwise; it must outlive the batch.
+    void set_body(const ImmersedBody& body) noexcept { body_ = &body; }
     void set_state(std::size_t index, const BodyState& state) noexcept;
     [[nodiscard]] BodyState state(std::size_t index) const noexcept;
     /// Makes body number i `sizes[i]` (above zero) times as large as the shape, at its density: before its
@@ -40,6 +42,8 @@ class Batch {
     /// bit.
     [[nodiscard]] BodyState own_state(std::size_t index) const noexcept;
     void keep_own_state(std::size_t index, const BodyState& state) noexcept;
+    /// Returns the number of the first body whose place or velocity is not finite; size() where all are.
+    [[nodiscard]] std::size_t first_not_finite() const noexcept;
     /// Returns the body's size relative to the shape's; 1 where none was set.
     [[nodiscard]] double size_of(std::size_t index) const noexcept {
         return sizes_.empty() ? 1.0 : sizes_[index];

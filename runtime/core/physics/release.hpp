@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "samara/core/base/linear_algebra.hpp"
@@ -26,6 +27,13 @@ struct Release {
     /// The mesh where copies start instead of `position`, in its axes and with its motion; null where there
     /// is none.
     std::shared_ptr<const Emitter> emitter = nullptr;
+    int first_copy = 0;  ///< number of the first of the copies that are simulated
+    int simulated = 0;   ///< the number of copies from there on that are simulated; 0: all
+
+    /// Returns the number of copies that are simulated.
+    [[nodiscard]] std::size_t copies() const noexcept {
+        return static_cast<std::size_t>(simulated > 0 ? simulated : count);
+    }
 
     /// Returns whether a spread of the copies' starts is given. A single copy must have none.
     [[nodiscard]] bool spreads() const noexcept {

@@ -43,10 +43,6 @@ Pose carried(const Pose& pose, double duration) {
     return result;
 }
 
-bool is_finite(const BodyState& state) {
-    return state.position.allFinite() && state.velocity.allFinite() && state.orientation.coeffs().allFinite();
-}
-
 }  // namespace
 
 BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& surroundings,
@@ -57,13 +53,14 @@ BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& sur
       surroundings_(surroundings),
       release_(release),
       physics_(physics),
-      hash_(body.hash),
       step_(settings.step),
       threads_(settings.threads),
       collide_(settings.bodies_collide),
-      body_(body.prepared->get(*body.body, physics, settings.fluid, name_)),
-      batch_(*body_, static_cast<std::size_t>(settings.runs) * static_cast<std::size_t>(release.count),
-             settings.precision),
+      fluid_(settings.fluid),
+      loaded_(body),
+      touches_(collide_ || has_ground(surroundings)),
+      body_(body.prepared->get(*body.body, physics, settings.fluid, name_, touches_)),
+      batch_(*body_, static_cast<std::size_t>(settings.runs) * release.copies(), settings.precision),
       before_(batch_.size()),
       before_time_(batch_.size(), 0.0) {
     if (release.start / step_ > most_steps_off) {
@@ -80,8 +77,19 @@ BodyGroup::BodyGroup(const SimulationSettings& settings, const Surroundings& sur
     draw_starts(settings);
 }
 
+void BodyGroup::find_contact_points() {
+    if (std::exchange(touches_, true)) return;
+    body_ = loaded_.prepared->get(*loaded_.body, physics_, fluid_, name_, true);
+    batch_.set_body(*body_);
+}
+
+std::string BodyGroup::number_of(std::size_t index) const {
+    return release_.simulated > 0 ? fmt::format("copy {}", copy_of(index))
+                                  : fmt::format("body {}", first_ + index);
+}
+
 void BodyGroup::draw_starts(const SimulationSettings& settings) {
-    const auto copies = static_cast<std::size_t>(release_.count);
+    const auto count = static_cast<std::size_t>(release_.count);
     std::vector<CopyStart> starts;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         starts.push_back(start_of_copy(release_, step_, noise_of(settings.seed, settings.first_run, i)));
@@ -103,20 +111,20 @@ void BodyGroup::draw_starts(const SimulationSettings& settings) {
         if (!is_sound(state)) {
             throw SimulationError(
                 SimulationError::Reason::invalid_argument,
-                fmt::format("body {} of '{}' starts beyond the range of numbers; check the units", i, name_));
+                fmt::format("copy {} of '{}' starts beyond the range of numbers; check the units", copy_of(i),
+                            name_));
         }
         const TouchingBody& touching = batch_.touching(i);
-        require_above_ground(touching, name_, surroundings_, start(i), state, i % copies, copies);
-        require_outside_obstacles(touching, name_, surroundings_, start(i), state, i % copies, copies);
+        require_above_ground(touching, name_, surroundings_, start(i), state, copy_of(i), count);
+        require_outside_obstacles(touching, name_, surroundings_, start(i), state, copy_of(i), count);
         batch_.set_state(i, state);
         before_[i] = flow_pose(state);
     }
 }
 
 Noise BodyGroup::noise_of(std::uint64_t seed, std::uint32_t first_run, std::size_t index) const {
-    const auto copies = static_cast<std::size_t>(release_.count);
-    return {seed, name_, first_run + static_cast<std::uint32_t>(index / copies),
-            static_cast<std::uint32_t>(index % copies)};
+    return {seed, name_, first_run + static_cast<std::uint32_t>(index / copies()),
+            static_cast<std::uint32_t>(copy_of(index))};
 }
 
 void BodyGroup::set_seed(std::uint64_t seed, std::uint32_t first_run) {
@@ -295,12 +303,11 @@ std::uint64_t BodyGroup::steps_between(std::uint64_t begin, std::uint64_t end) c
 }
 
 void BodyGroup::require_finite() const {
-    for (std::size_t i = 0; i < batch_.size(); ++i) {
-        if (is_finite(batch_.state(i))) continue;
-        throw SimulationError(SimulationError::Reason::out_of_range,
-                              fmt::format("body {} ('{}') diverged at {:.6g} s; use a smaller step",
-                                          first_ + i, name_, release_.start + time_of(steps_)));
-    }
+    const std::size_t lost = batch_.first_not_finite();
+    if (lost == batch_.size()) return;
+    throw SimulationError(SimulationError::Reason::out_of_range,
+                          fmt::format("{} ('{}') diverged at {:.6g} s; use a smaller step", number_of(lost),
+                                      name_, release_.start + time_of(steps_)));
 }
 
 StepReport BodyGroup::sampled() const {
@@ -369,7 +376,8 @@ void BodyGroup::set_pose(std::size_t index, const Pose& pose, double time) {
     batch_.set_state(index, state);
 }
 
-void BodyGroup::require_outside(const ObstacleSet& obstacles, double time) const {
+void BodyGroup::require_outside(const ObstacleSet& obstacles, double time) {
+    find_contact_points();
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         if (is_removed(i)) continue;
         const Pose here = pose(i, time);
@@ -406,6 +414,7 @@ void BodyGroup::set_surroundings(const Surroundings& surroundings) {
         batch_.set_state(i, state);
     }
     surroundings_ = surroundings;
+    if (has_ground(surroundings_)) find_contact_points();
     if (!batch_.sizes().empty()) batch_.set_sizes(batch_.sizes(), has_ground(surroundings_));
 }
 

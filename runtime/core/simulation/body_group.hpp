@@ -66,7 +66,7 @@ class BodyGroup {
     [[nodiscard]] bool is_there(std::size_t index) const noexcept {
         return !is_removed(index) && steps_ >= first_step(index);
     }
-    [[nodiscard]] std::size_t copies() const noexcept { return static_cast<std::size_t>(release_.count); }
+    [[nodiscard]] std::size_t copies() const noexcept { return release_.copies(); }
     [[nodiscard]] Batch& batch() noexcept { return batch_; }
     [[nodiscard]] const Batch& batch() const noexcept { return batch_; }
     [[nodiscard]] const Surroundings& surroundings() const noexcept { return surroundings_; }
@@ -106,7 +106,7 @@ class BodyGroup {
     /// end of a step, or the body is of another size than the shape's.
     [[nodiscard]] FluidLoad fluid_load(std::size_t index, double time) const;
     /// Throws Error where a body is inside one of these obstacles, or across a face, at a time (s).
-    void require_outside(const ObstacleSet& obstacles, double time) const;
+    void require_outside(const ObstacleSet& obstacles, double time);
     /// Returns the forces on a body at the end of its last step; none at a time (s) before its start.
     [[nodiscard]] FluidForces fluid_forces(std::size_t index, double time) const;
     void set_seed(std::uint64_t seed, std::uint32_t first_run);
@@ -125,6 +125,12 @@ class BodyGroup {
     bool read(StateReader& reader, double time, bool keep);
 
   private:
+    /// Returns a body's number among all copies.
+    [[nodiscard]] std::size_t copy_of(std::size_t index) const noexcept {
+        return static_cast<std::size_t>(release_.first_copy) + index % copies();
+    }
+    /// Returns the number by which messages name a body.
+    [[nodiscard]] std::string number_of(std::size_t index) const;
     [[nodiscard]] Noise noise_of(std::uint64_t seed, std::uint32_t first_run, std::size_t index) const;
     [[nodiscard]] double time_of(std::uint64_t step) const noexcept {
         return static_cast<double>(step) * step_;
@@ -136,6 +142,8 @@ class BodyGroup {
     /// where this one takes no step.
     void take_up_wrenches(double duration, bool has_steps);
     void set_removed(std::size_t index, bool removed);
+    /// Finds the points with which the bodies touch others, where that was not done before.
+    void find_contact_points();
     void draw_starts(const SimulationSettings& settings);
     /// Returns the number of steps that the bodies take, all together, between two steps of the grid.
     [[nodiscard]] std::uint64_t steps_between(std::uint64_t begin, std::uint64_t end) const;
@@ -147,12 +155,14 @@ class BodyGroup {
     Surroundings surroundings_;
     Release release_;
     BodyPhysics physics_;
-    std::string hash_;
     double step_;
     int threads_;
     bool collide_;  ///< whether bodies touch each other
     std::uint64_t grid_start_ = 0;
     std::vector<HullFace> faces_;
+    Fluid fluid_;
+    LoadedBody loaded_;
+    bool touches_;  ///< whether there is something to touch, or was
     std::shared_ptr<const ImmersedBody> body_;
     Batch batch_;
     std::vector<std::uint64_t> first_steps_;  ///< of each body; empty where all begin with the grid

@@ -52,7 +52,7 @@ constexpr std::size_t report_bytes = 5 * sizeof(std::uint64_t) + sizeof(int) + s
 
 std::string BodyGroup::description() const {
     std::string text = fmt::format("{} {} {} {} inertia {} models", name_, release_.count, release_.start,
-                                   hash_, fmt::join(body_->inertia.reshaped(), " "));
+                                   loaded_.hash, fmt::join(body_->inertia.reshaped(), " "));
     visit_members(physics_, ExactText{text});
     const ExactText append{text};
     for (const std::uint64_t first : first_steps_) append.append(first);

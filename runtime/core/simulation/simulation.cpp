@@ -110,6 +110,18 @@ Simulation::Simulation(const SimulationSettings& settings) : members_(std::make_
     renew_surroundings();
 }
 
+Simulation Simulation::without_bodies(int threads) const {
+    Simulation other;
+    Parts& parts = *other.members_;
+    parts.settings = members_->settings;
+    parts.settings.threads = threads;
+    parts.broadphase = Broadphase(parts.settings.step, parts.settings.runs, threads);
+    parts.wind_seed = members_->wind_seed;
+    parts.obstacles = members_->obstacles;
+    parts.surroundings = members_->surroundings;
+    return other;
+}
+
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

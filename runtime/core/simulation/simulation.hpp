@@ -94,6 +94,10 @@ class Simulation {
     /// or destroyed.
     Simulation& operator=(Simulation&&) noexcept;
 
+    /// Returns a simulation at time 0 with these settings and surroundings, which both share, without bodies.
+    /// Neither's obstacles, ground or wind may then change. `threads`: 0: all cores.
+    [[nodiscard]] Simulation without_bodies(int threads) const;
+
     /// Adds an obstacle, at any time, and returns its number, from 0; bodies at rest wake. Its surface must
     /// be welded and sound. Throws SimulationError where the name is taken, Error where a body is inside of
     /// it.
@@ -105,10 +109,10 @@ class Simulation {
     [[nodiscard]] bool is_obstacle_removed(std::size_t index) const;
 
     /// Adds all bodies of a group, which start at time() or later, and returns the number of the first: copy
-    /// c of run r has the number first + r * count + c. `name`, on which the random numbers depend, is the
-    /// body's own where it is empty. Throws SimulationError where the name is taken or the start has passed;
-    /// Error where the body lacks what its physics needs, the inertia is that of no body, or a copy starts
-    /// below the ground or inside an obstacle.
+    /// c of run r has the number first + r * count + c (of the copies that are simulated). `name`, on which
+    /// the random numbers depend, is the body's own where it is empty. Throws SimulationError where the name
+    /// is taken or the start has passed; Error where the body lacks what its physics needs, the inertia is
+    /// that of no body, or a copy starts below the ground or inside an obstacle.
     std::size_t add(const LoadedBody& body, const BodyPhysics& physics, const Release& release,
                     const std::string& name = {});
 

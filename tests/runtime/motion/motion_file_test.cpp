@@ -189,9 +189,9 @@ TEST(MotionFile, WrittenBlockByBlockHasTheBytesOfOneWrittenWhole) {
         const auto& poses = motion.bodies[0].poses;
         for (std::size_t first = 0; first < poses.size(); first += block) {
             const std::size_t end = std::min(first + block, poses.size());
-            writer.write(0, first, {poses.data() + first, poses.data() + end});
+            writer.write({0, first, {0, 1}, {poses.data() + first, poses.data() + end}, {}});
         }
-        writer.finish(poses.size());
+        writer.finish(poses.size(), {1});
     });
     EXPECT_EQ(read_bytes(folder / "whole.h5"), read_bytes(folder / "blocks.h5"));
     const Motion read = read_motion_file(folder / "blocks.h5");

@@ -32,17 +32,25 @@ TEST(RunNeeds, GrowWithCopiesAndFramesAndRuns) {
     EXPECT_LT(one.disk, 1e5);
     EXPECT_NEAR(needs_of(scene_of(61.0, 1000), 1).disk, 61e3 * 104.0, 1e4);
     EXPECT_NEAR(needs_of(scene_of(61.0, 100), 10).disk, 61e3 * 104.0, 1e4);
-    const RunNeeds crowd = needs_of(scene_of(61.0, 10'000'000), 1);
-    EXPECT_GT(crowd.memory, 10e6 * 500.0);
-    EXPECT_TRUE(crowd.memory_for_copies);
+    Scene crowd = scene_of(61.0, 10'000'000);
+    crowd.bodies_collide = true;
+    EXPECT_GT(needs_of(crowd, 1).memory, 10e6 * 500.0);
+    EXPECT_TRUE(needs_of(crowd, 1).memory_for_copies);
     const RunNeeds film = needs_of(scene_of(5e7, 1), 1);
     EXPECT_GT(film.memory, 5e7 * 160.0);
     EXPECT_FALSE(film.memory_for_copies);
     EXPECT_NEAR(film.disk, 5e7 * 112.0, 1e6);
 }
 
+TEST(RunNeeds, OfMemoryDoNotGrowWithACrowdThatDoesNotCollide) {
+    const double memory = needs_of(scene_of(61.0, 100'000), 1).memory;
+    EXPECT_EQ(needs_of(scene_of(61.0, 10'000'000), 1).memory, memory);
+    EXPECT_LT(memory, 5e8);
+}
+
 TEST(RunNeeds, CountWhatCopiesOfManySizesTouchWith) {
     Scene scene = scene_of(61.0, 1'000'000);
+    scene.bodies_collide = true;
     SceneBody& body = scene.bodies[0];
     static_cast<BodyPhysics&>(body) = test::scene_body(1200.0);
     body.loads = Loads::none;
@@ -51,8 +59,6 @@ TEST(RunNeeds, CountWhatCopiesOfManySizesTouchWith) {
     const double plain = needs_of(scene, 1, loaded).memory;
     EXPECT_EQ(plain, needs_of(scene, 1).memory);
     body.largest_size = 2.0;
-    EXPECT_EQ(needs_of(scene, 1, loaded).memory, plain) << "nothing is there to touch";
-    scene.ground = -1.0;
     const auto made = loaded[0].prepared->get(*loaded[0].body, body, scene.fluid, "rubber");
     const double points =
         static_cast<double>(made->contact_points.corners.size() + made->contact_points.round.size());
@@ -61,8 +67,9 @@ TEST(RunNeeds, CountWhatCopiesOfManySizesTouchWith) {
 
 TEST(RunNeeds, OfNumbersBeyondAnyMachineAreRefusedWithTheNumberToLower) {
     const auto rejection = [](double frames, int copies, int runs) {
-        return test::error_of(
-            [&] { require_room(needs_of(scene_of(frames, copies), runs), "s.toml", "m.h5"); });
+        Scene scene = scene_of(frames, copies);
+        scene.bodies_collide = true;
+        return test::error_of([&] { require_room(needs_of(scene, runs), "s.toml", "m.h5"); });
     };
     EXPECT_THAT(rejection(61.0, 10'000'000, 1'000'000),
                 AllOf(HasSubstr("s.toml: its simulation needs"), HasSubstr("lower the count or --runs")));
@@ -95,9 +102,10 @@ class RunsOfSamara : public ::testing::Test {
 };
 
 TEST_F(RunsOfSamara, ThatTakeMoreMemoryThanTheShellAllowsAreRefusedBeforeTheyFly) {
-    EXPECT_THAT(rejection("ulimit -v 2000000 &&", "duration = 0.01", "count = 10000000"),
-                AllOf(HasSubstr("warning: takes about"), HasSubstr("scene.toml: its simulation needs"),
-                      HasSubstr("lower the count or --runs")));
+    EXPECT_THAT(
+        rejection("ulimit -v 2000000 &&", "duration = 0.01\nbodies_collide = true", "count = 10000000"),
+        AllOf(HasSubstr("warning: takes about"), HasSubstr("scene.toml: its simulation needs"),
+              HasSubstr("lower the count or --runs")));
     EXPECT_THAT(rejection("ulimit -v 2000000 &&", "duration = 5e5\nframe_rate = 100", ""),
                 HasSubstr("lower the duration or frame_rate"));
 }

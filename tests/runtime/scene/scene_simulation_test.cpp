@@ -264,15 +264,15 @@ TEST(Simulation, BlocksOfFramesMakeUpTheWholeMotion) {
     std::size_t blocks = 0;
     std::size_t expected_first = 0;
     const SimulationReport report = simulation.fly(
-        [&](std::size_t body, std::size_t first, const std::vector<Pose>& poses) {
+        [&](const MotionBlock& block) {
             ++blocks;
-            EXPECT_EQ(body, 0U);
-            EXPECT_EQ(first, expected_first);
-            const std::size_t frames = poses.size() / 2;
+            EXPECT_EQ(block.body, 0U);
+            EXPECT_EQ(block.first_frame, expected_first);
+            const std::size_t frames = block.poses.size() / 2;
             expected_first += frames;
-            const auto last = static_cast<int>(first + frames) - 1;
-            expect_same(poses.back(), whole.pose(whole.bodies[0], 1, last, 0));
-            expect_same(poses[frames - 1], whole.pose(whole.bodies[0], 0, last, 0));
+            const auto last = static_cast<int>(expected_first) - 1;
+            expect_same(block.poses.back(), whole.pose(whole.bodies[0], 1, last, 0));
+            expect_same(block.poses[frames - 1], whole.pose(whole.bodies[0], 0, last, 0));
         },
         go_on);
     EXPECT_GT(blocks, 1U);
@@ -288,10 +288,9 @@ TEST(Simulation, AnInterruptLeavesAShorterMotionThatIsWhole) {
     int frames = 0;
     SimulationReport report;
     write_motion_file(folder / "motion.h5", simulation.motion(), [&](MotionWriter& writer) {
-        report = simulation.fly([&](std::size_t body, std::size_t first,
-                                    const std::vector<Pose>& poses) { writer.write(body, first, poses); },
+        report = simulation.fly([&](const MotionBlock& block) { writer.write(block); },
                                 [&](double, double) { return ++frames < 20; });
-        writer.finish(report.frames);
+        writer.finish(report.frames, report.copies);
     });
     EXPECT_TRUE(report.interrupted);
     const Motion cut = read_motion_file(folder / "motion.h5");

@@ -279,6 +279,17 @@ TEST(PreparedBodies, ThatDifferInNameAndStartAloneAreOne) {
     EXPECT_NE(prepared.get(body, kind, Fluid{.density = 1.2, .viscosity = 1.8e-5}, "body"), first);
 }
 
+TEST(PreparedBodies, HaveContactPointsWhereTheyMayTouchSomething) {
+    const Body body = test::rubber_ellipsoid();
+    SceneBody kind = test::scene_body(1200.0);
+    kind.loads = Loads::none;
+    PreparedBodies prepared;
+    EXPECT_TRUE(prepared.get(body, kind, Fluid{}, "body", false)->contact_points.round.empty());
+    const auto touching = prepared.get(body, kind, Fluid{}, "body", true);
+    EXPECT_FALSE(touching->contact_points.round.empty());
+    EXPECT_EQ(prepared.get(body, kind, Fluid{}, "body", true), touching);
+}
+
 TEST(PreparedBodies, KeepAsManyAsTheyAreToldTo) {
     const Body body = test::rubber_ellipsoid();
     SceneBody kind = test::scene_body(1.0);
