@@ -21,10 +21,9 @@ constexpr double sinking = 1e-7;    // speed of penetration that is tolerated, r
 // stiffness of the springs at sticking points, relative to the body's inertia there
 constexpr double stiffness = 1e3;
 constexpr int most_joint_sweeps = 60;  // forwards and backwards
+// change of the impulses in a sweep, or of the velocities: where several points hold the same, impulses may
+// go on shifting between them, which moves nothing
 constexpr double joint_converged = 1e-5;
-// change of the velocities in a sweep, likewise: where several points hold the same, impulses may go on
-// shifting between them, which moves nothing
-constexpr double joint_steady = 1e-4;
 
 /// Stops rates where impulses within `bound` can, else slows them: returns the new size, and whether the
 /// rates stop.
@@ -520,8 +519,9 @@ bool ContactSolver::has_converged(std::span<const ContactBody> bodies) const noe
         change = std::max(change, (row.size - row.before).head<3>().squaredNorm() * mobility);
         largest = std::max(largest, row.size.head<3>().squaredNorm() * mobility);
     }
-    if (change <= joint_converged * joint_converged * largest) return true;
-    double motion = 0.0;
+    const double tolerated = joint_converged * joint_converged * largest;
+    if (change <= tolerated) return true;
+    double motion = 0.0;  // two thirds of its energy (J), with the mean of the mobilities
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Vector6d after = bodies[i].velocity - before_[i];
         const Matrix6d& mobility = bodies[i].inverse_inertia;
@@ -529,7 +529,7 @@ bool ContactSolver::has_converged(std::span<const ContactBody> bodies) const noe
             std::max(motion, after.head<3>().squaredNorm() / mobility.topLeftCorner<3, 3>().trace() +
                                  after.tail<3>().squaredNorm() / mobility.bottomRightCorner<3, 3>().trace());
     }
-    return 3.0 * motion <= joint_steady * joint_steady * largest;
+    return 3.0 * motion <= tolerated;
 }
 
 void ContactSolver::accelerate(std::span<ContactBody> bodies,
