@@ -221,8 +221,8 @@ void Broadphase::find_islands(Run& run) {
         // root() must still find the members behind it, so single bodies are marked below.
         members[i].island = root(i);
     }
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        if (counts[members[i].island] == 1) members[i].island = ContactBetween::none;
+    for (Member& member : members) {
+        if (counts[member.island] == 1) member.island = ContactBetween::none;
     }
 }
 
