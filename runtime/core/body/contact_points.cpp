@@ -120,10 +120,29 @@ std::vector<Vector3d> sharp_vertices(const Surface& surface, const Vector3d& ori
     return points;
 }
 
-double reach_of(const std::vector<Vector3d>& points, const Vector3d& direction) {
-    double farthest = -std::numeric_limits<double>::infinity();
-    for (const Vector3d& point : points) farthest = std::max(farthest, point.dot(direction));
-    return farthest;
+/// How far each corner reaches along a direction (m).
+using CornerReaches = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_corners, 1>;
+
+CornerReaches corner_reaches(const ContactPoints& points, const Vector3d& direction) {
+    const std::size_t count = points.corners.size();
+    CornerReaches reaches(eigen_index(count));
+    const double* const coordinates = points.corners.data()->data();
+    double* const to = reaches.data();
+    const double x = direction.x();
+    const double y = direction.y();
+    const double z = direction.z();
+    // Without a branch, so that the compiler takes several corners at once.
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* const corner = coordinates + 3 * i;
+        to[i] = corner[0] * x + corner[1] * y + corner[2] * z;
+    }
+    return reaches;
+}
+
+/// Returns how far the farthest corner reaches along a direction.
+double reach_of_corners(const ContactPoints& points, const Vector3d& direction) {
+    if (points.corners.empty()) return -std::numeric_limits<double>::infinity();
+    return corner_reaches(points, direction).maxCoeff();
 }
 
 Vector3d mean_of(const ContactPoints& points) {
@@ -266,7 +285,7 @@ ContactPoints contact_points(const Surface& surface, const Vector3d& center_of_m
     Reaches reaches(points);
     const std::vector<Vector3d> nodes = octahedral_nodes(subdivisions);
     const bool has_round_sides = std::any_of(nodes.begin(), nodes.end(), [&](const Vector3d& direction) {
-        const double of_corners = reach_of(result.corners, direction);
+        const double of_corners = reach_of_corners(result, direction);
         reaches.find(direction, of_corners + width - rounding);
         return of_corners < reaches.farthest() - width;
     });
@@ -300,19 +319,20 @@ Vector3d lowest_round_point(const ContactPoints& points, const Vector3d& down) n
 Vector3d farthest_point(const ContactPoints& points, const Vector3d& direction) noexcept {
     Vector3d farthest = Vector3d::Zero();
     double most = -std::numeric_limits<double>::infinity();
-    const auto look_at = [&](const Vector3d& point) {
-        const double along = point.dot(direction);
-        if (along <= most) return;
-        most = along;
-        farthest = point;
-    };
-    for (const Vector3d& corner : points.corners) look_at(corner);
-    if (!points.round.empty()) look_at(lowest_round_point(points, direction));
-    return farthest;
+    if (!points.corners.empty()) {
+        const CornerReaches reaches = corner_reaches(points, direction);
+        most = reaches.maxCoeff();
+        const auto found = std::find(reaches.begin(), reaches.end(), most);
+        if (found != reaches.end())
+            farthest = points.corners[static_cast<std::size_t>(found - reaches.begin())];
+    }
+    if (points.round.empty()) return farthest;
+    const Vector3d round = lowest_round_point(points, direction);
+    return round.dot(direction) > most ? round : farthest;
 }
 
 double reach(const ContactPoints& points, const Vector3d& direction) noexcept {
-    double farthest = reach_of(points.corners, direction);
+    double farthest = reach_of_corners(points, direction);
     if (!points.round.empty())
         farthest = std::max(farthest, lowest_round_point(points, direction).dot(direction));
     return farthest;

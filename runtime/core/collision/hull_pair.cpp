@@ -44,11 +44,10 @@ bool separation_drawn_in(const CollisionHull& first, const CollisionHull& second
     return true;
 }
 
-/// Returns the direction along which hulls that seem to overlap do so least.
-PairSeparation overlapping(const CollisionHull& first, const CollisionHull& second) {
+/// Returns the direction along which hulls that overlap do so least.
+PairSeparation least_overlap(const CollisionHull& first, const CollisionHull& second) {
     PairSeparation apart;
     const bool barely = separation_drawn_in(first, second, apart);
-    if (barely && !apart.overlap) return apart;
     PairSeparation best{Vector3d::UnitZ(), -std::numeric_limits<double>::infinity(), Vector3d::Zero(), true};
     const auto look_along = [&](const Vector3d& normal) {
         const double gap = gap_along(first.hull, second.hull, normal);
@@ -56,7 +55,7 @@ PairSeparation overlapping(const CollisionHull& first, const CollisionHull& seco
         best.normal = normal;
         best.gap = gap;
     };
-    const Vector3d between = middle_of(first.hull) - middle_of(second.hull);
+    const Vector3d between = between_middles(first, second);
     if (between.norm() > 0.0) look_along(between.normalized());
     if (barely) look_along(apart.normal);
     look_along(Vector3d::UnitZ());
@@ -188,27 +187,39 @@ bool ends_in_corners(const CollisionHull& of, const Vector3d& direction) {
 
 }  // namespace
 
-PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second,
-                               double enough) noexcept {
-    Vector3d separation = middle_of(first.hull) - middle_of(second.hull);
-    if (separation.norm() > 0.0) {
-        const Vector3d normal = separation.normalized();
-        const double gap = gap_along(first.hull, second.hull, normal);
-        if (gap > enough) return {normal, gap, second.hull.farthest(normal), false};
-    }
+Vector3d between_middles(const CollisionHull& first, const CollisionHull& second) noexcept {
+    return middle_of(first.hull) - middle_of(second.hull);
+}
+
+std::optional<PairSeparation> plane_between(const CollisionHull& first, const CollisionHull& second,
+                                            double enough, Vector3d separation) noexcept {
     Simplex simplex;
     const auto of_first = [&](const Vector3d& direction) { return first.hull.farthest(direction); };
     const auto of_second = [&](const Vector3d& direction) { return second.hull.farthest(direction); };
-    if (!nearest_separation(of_first, of_second, simplex, separation, enough))
-        return overlapping(first, second);
-    const Vector3d normal = separation.normalized();
-    const double gap = gap_along(first.hull, second.hull, normal);
-    if (!(gap > 0.0)) return overlapping(first, second);
-    return {normal, gap, simplex.on_second(), false};
+    const auto gap = nearest_separation(of_first, of_second, simplex, separation, enough);
+    if (gap && *gap > 0.0) return PairSeparation{separation.normalized(), *gap, simplex.on_second(), false};
+    PairSeparation drawn_apart;
+    if (separation_drawn_in(first, second, drawn_apart) && !drawn_apart.overlap) return drawn_apart;
+    return {};
 }
 
-HullContact hull_contact(const CollisionHull& first, const CollisionHull& second, double reach) noexcept {
-    const PairSeparation apart = pair_separation(first, second, reach);
+PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second,
+                               double enough) noexcept {
+    const auto apart = plane_between(first, second, enough, between_middles(first, second));
+    return apart ? *apart : least_overlap(first, second);
+}
+
+bool come_within(const CollisionHull& first, const CollisionHull& second, double distance) noexcept {
+    Simplex simplex;
+    Vector3d separation = between_middles(first, second);
+    const auto of_first = [&](const Vector3d& direction) { return first.hull.farthest(direction); };
+    const auto of_second = [&](const Vector3d& direction) { return second.hull.farthest(direction); };
+    const auto gap = nearest_separation(of_first, of_second, simplex, separation, distance, distance);
+    return !(gap && *gap > distance);
+}
+
+HullContact hull_contact(const CollisionHull& first, const CollisionHull& second, const PairSeparation& apart,
+                         double reach) noexcept {
     HullContact result;
     result.normal = apart.normal;
     result.gap = apart.gap;

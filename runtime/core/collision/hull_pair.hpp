@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "samara/core/base/linear_algebra.hpp"
@@ -37,10 +38,23 @@ struct PairSeparation {
     bool overlap;
 };
 
-/// Returns the plane with the widest gap, or one with a gap above `enough` (m), which is found sooner. Never
-/// throws or allocates.
+/// Returns the vector (m) from the middle of the second hull to that of the first.
+Vector3d between_middles(const CollisionHull& first, const CollisionHull& second) noexcept;
+
+/// Returns the plane with the widest gap, or one with a gap above `enough` (m), which is found sooner;
+/// nothing where the two overlap. `separation`: a guess of its normal, of any length. The point is unknown
+/// where the gap is above `enough`. Never throws or allocates.
+std::optional<PairSeparation> plane_between(const CollisionHull& first, const CollisionHull& second,
+                                            double enough, Vector3d separation) noexcept;
+
+/// Returns plane_between(), or the direction along which the two overlap least, which takes longer to find.
+/// Never throws or allocates.
 PairSeparation pair_separation(const CollisionHull& first, const CollisionHull& second,
                                double enough) noexcept;
+
+/// Returns whether the gap between two hulls is at most a distance (m), where plane_between() would find so.
+/// Never throws or allocates.
+bool come_within(const CollisionHull& first, const CollisionHull& second, double distance) noexcept;
 
 /// Returns the gap (m) between two hulls along a unit vector from the second to the first.
 inline double gap_along(const PlacedHull& first, const PlacedHull& second, const Vector3d& normal) noexcept {
@@ -60,8 +74,9 @@ struct HullContact {
 };
 
 /// Returns the points where two hulls come within `reach` (m) of each other: of faces that face each other
-/// the outline of their common part, eight points of it at most, else the nearest points. Never throws or
-/// allocates.
-HullContact hull_contact(const CollisionHull& first, const CollisionHull& second, double reach) noexcept;
+/// the outline of their common part, eight points of it at most, else the nearest points. `apart`: the result
+/// of pair_separation() with `reach` or more as what is enough. Never throws or allocates.
+HullContact hull_contact(const CollisionHull& first, const CollisionHull& second, const PairSeparation& apart,
+                         double reach) noexcept;
 
 }  // namespace samara

@@ -33,7 +33,7 @@ bool nearest_to_triangle(const PlacedHull& hull, const ObstacleTriangle& triangl
     };
     const auto of_triangle = [&](const Vector3d& direction) { return farthest_corner(triangle, direction); };
     separation = middle - triangle.corners[0];
-    return nearest_separation(of_hull, of_triangle, simplex, separation);
+    return nearest_separation(of_hull, of_triangle, simplex, separation).has_value();
 }
 
 }  // namespace
@@ -74,10 +74,9 @@ Vector3d Simplex::on_second() const {
 }
 
 void Simplex::keep(std::initializer_list<std::pair<int, double>> kept) {
-    const std::array<Difference, 4> before = corners;
     size = 0;
     for (const auto& [i, share] : kept) {
-        corners[static_cast<std::size_t>(size)] = before[static_cast<std::size_t>(i)];
+        if (i != size) corners[static_cast<std::size_t>(size)] = at(i);
         corners[static_cast<std::size_t>(size++)].share = share;
     }
 }
@@ -152,8 +151,8 @@ bool Simplex::reduce_tetrahedron() {
         // Every face of a tetrahedron without volume may be the nearest.
         const bool is_flat = std::abs(other_side) <= flat * normal.norm() * height.norm();
         if (!is_flat && origin_side * other_side > 0.0) continue;
-        Simplex part = whole;
-        part.keep({{face[0], 0.0}, {face[1], 0.0}, {face[2], 0.0}});
+        Simplex part;
+        for (int i = 0; i < 3; ++i) part.add(whole.at(face[i]));
         part.reduce_triangle();
         const double square = part.nearest().squaredNorm();
         if (square >= nearest_yet) continue;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "samara/core/base/linear_algebra.hpp"
@@ -76,6 +78,7 @@ struct Simplex {
   private:
     [[nodiscard]] const Difference& at(int i) const { return corners[static_cast<std::size_t>(i)]; }
     [[nodiscard]] const Vector3d& point(int i) const { return at(i).point; }
+    /// Keeps corners, in ascending order, with their shares.
     void keep(std::initializer_list<std::pair<int, double>> kept);
     void reduce_segment();
     void reduce_triangle();
@@ -85,38 +88,43 @@ struct Simplex {
 /// Finds the vector between the nearest points of two convex bodies: Gilbert, Johnson and Keerthi, IEEE
 /// Journal of Robotics and Automation 4(2), 1988. `first` and `second` give the point (m) of each body that
 /// is farthest along a unit vector. `separation` (m): from the second to the first, at first any guess; where
-/// a plane across it leaves a gap above `enough` (m) it need not be the shortest. False where the two
-/// overlap. Never allocates.
+/// a plane across it leaves a gap above `enough` (m), or it is no longer than `near` (m), it need not be the
+/// shortest. Returns the gap (m) that the plane across it leaves, and up to `near` an upper bound of the
+/// widest; nothing where the two overlap. Never allocates.
 template <typename First, typename Second>
-bool nearest_separation(const First& first, const Second& second, Simplex& simplex, Vector3d& separation,
-                        double enough = std::numeric_limits<double>::infinity()) noexcept {
+std::optional<double> nearest_separation(const First& first, const Second& second, Simplex& simplex,
+                                         Vector3d& separation,
+                                         double enough = std::numeric_limits<double>::infinity(),
+                                         double near = 0.0) noexcept {
     constexpr int most_rounds = 32;      // five are common, round bodies need a few more
     constexpr double converged = 1e-13;  // of the squared distance
-    if (separation.squaredNorm() == 0.0) return false;
+    if (separation.squaredNorm() == 0.0) return {};
     double square = std::numeric_limits<double>::infinity();
+    double gap = 0.0;
     for (int round = 0; round < most_rounds; ++round) {
         const Vector3d direction = separation.normalized();
         const Vector3d of_second = second(direction);
         const Vector3d point = first(-direction) - of_second;
         const double separated = separation.dot(point);
-        if (round > 0 && separation.squaredNorm() - separated <= converged * square) return true;
-        if (separated > 0.0 && separated * separated > enough * enough * separation.squaredNorm())
-            return true;
+        gap = direction.dot(point);
+        if (round > 0 && separation.squaredNorm() - separated <= converged * square) return gap;
+        if (separated > 0.0 && separated * separated > enough * enough * separation.squaredNorm()) return gap;
         const Simplex before = simplex;
         simplex.add({point, of_second, 1.0});
         const bool is_outside = simplex.reduce();
         const Vector3d next = is_outside ? simplex.nearest() : Vector3d::Zero();
         const double next_square = next.squaredNorm();
-        if (!(next_square > 0.0) && separated <= 0.0) return false;
+        if (!(next_square > 0.0) && separated <= 0.0) return {};
         // Where a plane separates the two already, only rounding places the origin within the simplex.
         if (!(next_square > 0.0) || !(next_square < square)) {
             simplex = before;
-            return true;
+            return gap;
         }
         separation = next;
         square = next_square;
+        if (square <= near * near) return std::sqrt(square);
     }
-    return true;
+    return gap;
 }
 
 }  // namespace samara

@@ -21,6 +21,8 @@ constexpr double sinking = 1e-7;    // speed of penetration that is tolerated, r
 // stiffness of the springs at sticking points, relative to the body's inertia there
 constexpr double stiffness = 1e3;
 constexpr int most_joint_sweeps = 60;  // forwards and backwards
+// change of the impulses in a sweep, or of the velocities: where several points hold the same, impulses may
+// go on shifting between them, which moves nothing
 constexpr double joint_converged = 1e-5;
 
 /// Stops rates where impulses within `bound` can, else slows them: returns the new size, and whether the
@@ -45,8 +47,8 @@ struct Held {
     bool slip = false, spin = false;
 };
 
-/// Updates the impulses at one point while those at all others stay. `motion` has the rates at the point
-/// relative to their targets (closing, slip, spin), and changes velocities (add).
+/// Updates the impulses at one point of a single body while those at all others stay. `motion` has the rates
+/// at the point relative to their targets (closing, slip, spin), and changes its velocity (add).
 template <typename Motion>
 Held relax(ContactImpulses& impulses, const Motion& motion) {
     Vector6d& size = impulses.size;
@@ -364,40 +366,43 @@ class ImpulseSolver {
     double largest_ = 0.0;
 };
 
-/// The velocities of bodies among others at a point where they may touch.
-struct JointMotion {
-    std::span<ContactBody> bodies;
-    const ContactBetween& point;
-    const ContactImpulses& impulses;
+/// Adds to a velocity what impulses give a body. By numbers alone: vectors of three, of a velocity that was
+/// just written by twos, would wait for it to reach the cache.
+void push(ContactBody& body, const ContactImpulses::Side& side, const Vector6d& size, double sign) noexcept {
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        body.velocity[i] +=
+            sign * (side.push(i, 0) * size[0] + side.push(i, 1) * size[1] + side.push(i, 2) * size[2] +
+                    side.spin(i, 0) * size[3] + side.spin(i, 1) * size[4] + side.spin(i, 2) * size[5]);
+    }
+}
 
-    /// Returns the velocity (m/s) of the first relative to the second, or to the surface that it touches, at
-    /// the point.
-    [[nodiscard]] Vector3d passing() const {
-        const Vector6d& a = bodies[point.first].velocity;
-        Vector3d rate = a.tail<3>() + a.head<3>().cross(point.first_arm);
-        if (point.second == ContactBetween::none) return rate;
-        const Vector6d& b = bodies[point.second].velocity;
-        rate -= b.tail<3>() + b.head<3>().cross(point.second_arm);
-        return rate;
+void push_both(std::span<ContactBody> bodies, const ContactBetween& point, const ContactImpulses& impulses,
+               const Vector6d& size) noexcept {
+    push(bodies[point.first], impulses.first, size, 1.0);
+    if (point.second != ContactBetween::none) push(bodies[point.second], impulses.second, size, -1.0);
+}
+
+/// The velocity (m/s) and angular velocity (rad/s) of the first body at a point relative to the second, or to
+/// the surface that it touches.
+struct Passing {
+    Vector3d slide, turn;
+
+    Passing(std::span<const ContactBody> bodies, const ContactBetween& point) noexcept {
+        add(bodies[point.first].velocity, point.first_arm, 1.0);
+        if (point.second != ContactBetween::none) add(bodies[point.second].velocity, point.second_arm, -1.0);
     }
-    [[nodiscard]] double closing() const { return point.normal.dot(passing()) - impulses.target.z(); }
-    [[nodiscard]] Eigen::Vector2d slip() const {
-        return Vector3d(impulses.axes * passing() - impulses.target).head<2>();
-    }
-    [[nodiscard]] Vector3d spin() const {
-        Vector3d rate = bodies[point.first].velocity.head<3>();
-        if (point.second != ContactBetween::none) rate -= bodies[point.second].velocity.head<3>();
-        return impulses.axes * rate - impulses.target_spin;
-    }
-    template <typename Change>
-    void add(const Change& change) const {
-        bodies[point.first].velocity += change(impulses.first);
-        if (point.second != ContactBetween::none) bodies[point.second].velocity -= change(impulses.second);
-    }
-    void add_size(const Vector6d& size) const {
-        add([&](const ContactImpulses::Side& side) -> Vector6d {
-            return side.push * size.head<3>() + side.spin * size.tail<3>();
-        });
+
+  private:
+    void add(const Vector6d& u, const Vector3d& arm, double sign) noexcept {
+        const Vector3d v(u[3] + u[1] * arm[2] - u[2] * arm[1], u[4] + u[2] * arm[0] - u[0] * arm[2],
+                         u[5] + u[0] * arm[1] - u[1] * arm[0]);
+        if (sign > 0.0) {
+            slide = v;
+            turn = Vector3d(u[0], u[1], u[2]);
+        } else {
+            slide -= v;
+            turn -= Vector3d(u[0], u[1], u[2]);
+        }
     }
 };
 
@@ -444,7 +449,7 @@ void ContactSolver::prepare(std::span<ContactBody> bodies, std::span<const Conta
         Row& row = rows_[i];
         row.direction.setZero();
         if (i < known) {
-            JointMotion{bodies, point, row}.add_size(row.size);
+            push_both(bodies, point, row, row.size);
             continue;
         }
         const Matrix3d axes = axes_about(point.normal);
@@ -455,10 +460,12 @@ void ContactSolver::prepare(std::span<ContactBody> bodies, std::span<const Conta
             side.push = body.inverse_inertia * wrench;
             side.spin = body.inverse_inertia.leftCols<3>() * across;
             row.push_mobility += wrench.transpose() * side.push;
+            row.spin_by_push += across.transpose() * side.push.topRows<3>();
             row.spin_mobility += across.transpose() * side.spin.topRows<3>();
         };
         row.push_mobility.setZero();
         row.spin_mobility.setZero();
+        row.spin_by_push.setZero();
         respond(bodies[point.first], point.first_arm, row.first);
         double radius = bodies[point.first].radius;
         if (point.second != ContactBetween::none) {
@@ -476,11 +483,35 @@ void ContactSolver::sweep(std::span<ContactBody> bodies, std::span<const Contact
                           bool backwards) noexcept {
     for (std::size_t k = 0; k < points.size(); ++k) {
         const std::size_t i = backwards ? points.size() - 1 - k : k;
-        relax(rows_[i], JointMotion{bodies, points[i], rows_[i]});
+        relax(bodies, points[i], rows_[i]);
     }
 }
 
-bool ContactSolver::has_converged() const noexcept {
+void ContactSolver::relax(std::span<ContactBody> bodies, const ContactBetween& point, Row& row) noexcept {
+    // As relax() of a single body, but for the rates, which follow the point's own impulses by its
+    // mobilities: the bodies' velocities change but once.
+    const Passing passing(bodies, point);
+    Vector6d change;
+    const double closing = row.axes.row(2).dot(passing.slide) - row.target.z();
+    const double normal = std::max(0.0, row.size[2] - closing / row.push_mobility(2, 2));
+    change[2] = normal - row.size[2];
+    if (normal == 0.0 && row.size.isZero(0.0)) return;
+    const Eigen::Vector2d slip = row.axes.topRows<2>() * passing.slide - row.target.head<2>() +
+                                 row.push_mobility.col(2).head<2>() * change[2];
+    change.head<2>() = held<2>(row.size.head<2>(), slip, row.slip_inverse,
+                               row.push_mobility(0, 0) + row.push_mobility(1, 1), row.friction * normal)
+                           .first -
+                       row.size.head<2>();
+    const Vector3d spin = row.axes * passing.turn - row.target_spin + row.spin_by_push * change.head<3>();
+    change.tail<3>() =
+        held<3>(row.size.tail<3>(), spin, row.spin_inverse, row.spin_mobility.trace(), row.lever * normal)
+            .first -
+        row.size.tail<3>();
+    row.size += change;
+    push_both(bodies, point, row, change);
+}
+
+bool ContactSolver::has_converged(std::span<const ContactBody> bodies) const noexcept {
     double change = 0.0;
     double largest = 0.0;
     for (const Row& row : rows_) {
@@ -488,7 +519,17 @@ bool ContactSolver::has_converged() const noexcept {
         change = std::max(change, (row.size - row.before).head<3>().squaredNorm() * mobility);
         largest = std::max(largest, row.size.head<3>().squaredNorm() * mobility);
     }
-    return change <= joint_converged * joint_converged * largest;
+    const double tolerated = joint_converged * joint_converged * largest;
+    if (change <= tolerated) return true;
+    double motion = 0.0;  // two thirds of its energy (J), with the mean of the mobilities
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Vector6d after = bodies[i].velocity - before_[i];
+        const Matrix6d& mobility = bodies[i].inverse_inertia;
+        motion =
+            std::max(motion, after.head<3>().squaredNorm() / mobility.topLeftCorner<3, 3>().trace() +
+                                 after.tail<3>().squaredNorm() / mobility.bottomRightCorner<3, 3>().trace());
+    }
+    return 3.0 * motion <= tolerated;
 }
 
 void ContactSolver::accelerate(std::span<ContactBody> bodies,
@@ -507,7 +548,7 @@ void ContactSolver::accelerate(std::span<ContactBody> bodies,
         const Vector6d more = share * row.direction;
         row.direction = more + change;
         row.size += more;
-        JointMotion{bodies, points[i], row}.add_size(more);
+        push_both(bodies, points[i], row, more);
     }
 }
 
@@ -550,9 +591,11 @@ void ContactSolver::solve(std::span<ContactBody> bodies, std::span<ContactBetwee
     slope_ = 0.0;
     for (int i = 0; i < most_joint_sweeps; ++i) {
         for (Row& row : rows_) row.before = row.size;
+        before_.clear();
+        for (const ContactBody& body : bodies) before_.push_back(body.velocity);
         sweep(bodies, points, false);
         sweep(bodies, points, true);
-        if (has_converged()) break;
+        if (has_converged(bodies)) break;
         if (i + 1 < most_joint_sweeps) accelerate(bodies, points);
     }
     keep_passive(bodies, points);

@@ -112,18 +112,21 @@ class ContactSolver {
 
   private:
     struct Row : ContactImpulses {
+        Matrix3d spin_by_push;       ///< rates about the axes of unit impulses along them
         Vector6d before, direction;  ///< of the sweep, and of the conjugate gradients
     };
 
     void prepare(std::span<ContactBody> bodies, std::span<const ContactBetween> points, std::size_t known);
     void sweep(std::span<ContactBody> bodies, std::span<const ContactBetween> points,
                bool backwards) noexcept;
+    static void relax(std::span<ContactBody> bodies, const ContactBetween& point, Row& row) noexcept;
     void accelerate(std::span<ContactBody> bodies, std::span<const ContactBetween> points) noexcept;
-    [[nodiscard]] bool has_converged() const noexcept;
+    [[nodiscard]] bool has_converged(std::span<const ContactBody> bodies) const noexcept;
     void keep_passive(std::span<ContactBody> bodies, std::span<ContactBetween> points);
 
     std::vector<Row> rows_;
     std::vector<Vector6d> start_;    ///< the bodies' velocities before
+    std::vector<Vector6d> before_;   ///< those before the sweep
     std::vector<Vector6d> impulse_;  ///< on each body
     double slope_ = 0.0;             ///< of the conjugate gradients: squares of the last sweep's changes
 };

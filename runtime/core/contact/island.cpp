@@ -162,6 +162,7 @@ void IslandStep::begin_substep(double time_step) {
         const TouchingBody& body = *island_bodies_[i].body;
         mover.velocity_before = mover.velocity;
         mover.before = mover.place;
+        mover.hull_before = hull(i, mover.before);
         bodies_[i] = {.velocity = loaded_velocity(mover, time_step),
                       .inverse_inertia = in_world(body.inverse_inertia, mover.place.orientation),
                       .radius = body.contact_points.bounding_radius};
@@ -249,6 +250,7 @@ void IslandStep::move(double time_step, bool ends_step) {
             mover.place = island_bodies_[i].end;
             mover.velocity = island_bodies_[i].end_velocity;
         }
+        change_path(mover);
         mover.energy = energy_of(i, mover.before, bodies_[i].velocity);
         mover.shift.setZero();
         mover.held = 0;
@@ -274,6 +276,7 @@ void IslandStep::separate_from_ground(const IslandGround& ground, double time, d
         if (shift.isZero(0.0) && mover.place.orientation.coeffs() == reached.orientation.coeffs()) continue;
         mover.shift += shift;
         mover.pressed = true;
+        change_path(mover);
         moved = moved || shift.norm() > closest * skin * bodies_[i].radius;
     }
 }

@@ -100,14 +100,25 @@ class IslandStep {
         bool pressed;   ///< whether an impulse or a separation acted on it, in this substep or before
         bool overlaps;  ///< whether it overlaps another when the step ends: it is still to be separated
         int held;       ///< 1: it stopped on its path, 2: it stayed where the substep began; 0: neither
+        CollisionHull hull_before;       ///< when the substep began
+        mutable CollisionHull hull_now;  ///< at its place, where `hull_of` is `path`
+        std::size_t path = 0;  ///< the number of its path in the substep: another one after each change
+        mutable std::size_t hull_of = 0;
+    };
+    /// A share of two bodies' paths in a substep (free_share()), and the work of finding it.
+    struct FreeShare {
+        std::size_t first_path = 0, second_path = 0;  ///< of the bodies; 0: not known
+        double share = 0.0;
+        std::size_t work = 0;
     };
     /// Two bodies that may touch in a substep.
     struct Near {
         std::size_t first, second;
         Vector3d normal;
         double gap;
-        double apart;  ///< m: the gap that they keep
-        bool waits;    ///< whether they collide where their paths do, not before
+        double apart;                  ///< m: the gap that they keep
+        bool waits;                    ///< whether they collide where their paths do, not before
+        mutable FreeShare known = {};  ///< of their paths now
 
         /// Returns whether there was a gap when the substep began. Bodies that overlapped then are separated.
         [[nodiscard]] bool began_separated() const { return gap > 0.0; }
@@ -146,9 +157,13 @@ class IslandStep {
     [[nodiscard]] Vector6d free_velocity_change(std::size_t i, const Vector6d& velocity, double time) const;
     [[nodiscard]] static Vector6d loaded_velocity(const Mover& mover, double time);
     [[nodiscard]] CollisionHull hull(std::size_t i, const BodyPlace& place) const;
+    [[nodiscard]] CollisionHull hull_at(std::size_t i, double share) const;
+    void change_path(Mover& mover) { mover.path = ++paths_; }
     [[nodiscard]] bool passes_by(const Near& near) const;
     [[nodiscard]] bool separated_before(const Near& near, const Vector3d& normal, double gap) const;
     [[nodiscard]] double free_share(const Near& near) const;
+    [[nodiscard]] double found_free_share(const Near& near) const;
+    [[nodiscard]] double travel_of(std::size_t i) const;
     [[nodiscard]] BodyPlace place_at(std::size_t i, double share) const;
     void add_points(const Near& near, const HullContact& record, double share, double time_step);
     [[nodiscard]] double energy_of(std::size_t i, const BodyPlace& place, const Vector6d& velocity) const;
@@ -162,6 +177,7 @@ class IslandStep {
     ContactSolver impulses_;
     mutable std::size_t work_ = 0;  ///< spent in the step: pairs of hulls checked, points with impulses
     std::size_t most_work_ = 0;
+    std::size_t paths_ = 0;  ///< of all bodies so far
 };
 
 }  // namespace samara

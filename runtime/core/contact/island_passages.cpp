@@ -11,8 +11,10 @@ namespace samara {
 namespace {
 
 // Chosen by trial, so that the tests Encounters and BroadphaseStability pass.
-constexpr double finest_passage_share =
-    1e-3;  // precision of the place where two touch, relative to their path
+// precision of the place where two touch, relative to their path, and to the skin where that is coarser
+constexpr double finest_passage_share = 1e-3;
+constexpr double coarsest_passage_share = 0.25;
+constexpr double passage_precision = 0.05;
 // displacement of two in a substep, relative to the radius, from which they collide where their paths do
 constexpr double fast_travel = 0.02;
 // relative to the skin: the distance to which bodies that come too close are separated
@@ -54,8 +56,16 @@ void IslandStep::find_pairs(std::span<const Pair> pairs, double time_step, bool 
                            travel > fast_travel * std::min(bodies_[a].radius, bodies_[b].radius);
         near_.push_back({a, b, now.normal, now.gap, apart, waits});
         if (waits || now.gap > reach || passes_by(near_.back())) continue;
-        add_points(near_.back(), hull_contact(first, second, reach), 0.0, time_step);
+        add_points(near_.back(), hull_contact(first, second, now, reach), 0.0, time_step);
     }
+}
+
+/// Returns a bound of how far (m) the points of a body move in the substep.
+double IslandStep::travel_of(std::size_t i) const {
+    const Mover& mover = movers_[i];
+    const double rotation =
+        2.0 * (mover.before.orientation.conjugate() * mover.place.orientation).vec().norm();
+    return (mover.place.position - mover.before.position).norm() + rotation * bodies_[i].radius;
 }
 
 BodyPlace IslandStep::place_at(std::size_t i, double share) const {
@@ -63,6 +73,18 @@ BodyPlace IslandStep::place_at(std::size_t i, double share) const {
     if (share == 0.0) return mover.before;
     return {mover.before.position + share * (mover.place.position - mover.before.position),
             mover.before.orientation.slerp(share, mover.place.orientation)};
+}
+
+/// Returns the hull of a body at a share of its path in the substep.
+CollisionHull IslandStep::hull_at(std::size_t i, double share) const {
+    const Mover& mover = movers_[i];
+    if (share == 0.0) return mover.hull_before;
+    if (share < 1.0) return hull(i, place_at(i, share));
+    if (mover.hull_of != mover.path) {
+        mover.hull_now = hull(i, place_at(i, share));
+        mover.hull_of = mover.path;
+    }
+    return mover.hull_now;
 }
 
 /// Adds the contact points of two that touch at a share of their paths. Where they do not touch as the
@@ -112,44 +134,59 @@ bool IslandStep::passes_by(const Near& near) const {
     const CollisionHull first = hull(near.first, movers_[near.first].alone);
     const CollisionHull second = hull(near.second, movers_[near.second].alone);
     if (gap_along(first.hull, second.hull, near.normal) >= 0.0) return false;  // others may bring them there
-    const PairSeparation later = pair_separation(first, second, near.apart);
+    const auto later = plane_between(first, second, near.apart, near.normal);
     ++work_;
-    return !later.overlap && separated_before(near, later.normal, near.apart) && later.gap >= near.apart;
+    return later && separated_before(near, later->normal, near.apart) && later->gap >= near.apart;
 }
 
 /// Returns whether a plane separated two by a gap when the substep began.
 bool IslandStep::separated_before(const Near& near, const Vector3d& normal, double gap) const {
-    return gap_along(hull(near.first, movers_[near.first].before).hull,
-                     hull(near.second, movers_[near.second].before).hull, normal) >= gap;
+    return gap_along(movers_[near.first].hull_before.hull, movers_[near.second].hull_before.hull, normal) >=
+           gap;
 }
 
 /// Returns the share of their paths, up to 1, that two surely complete without passing through each other: at
 /// both ends of each piece of it one plane leaves them a gap. Zero where all work is spent.
 double IslandStep::free_share(const Near& near) const {
     if (is_spent()) return 0.0;
+    const std::size_t first_path = movers_[near.first].path;
+    const std::size_t second_path = movers_[near.second].path;
+    if (near.known.first_path == first_path && near.known.second_path == second_path) {
+        work_ += near.known.work;  // as if it was found anew
+        return near.known.share;
+    }
+    const std::size_t before = work_;
+    const double share = found_free_share(near);
+    near.known = {first_path, second_path, share, work_ - before};
+    return share;
+}
+
+double IslandStep::found_free_share(const Near& near) const {
     ++work_;
     const double least = near.least();
     const auto hulls = [&](double share) {
-        return std::pair(hull(near.first, place_at(near.first, share)),
-                         hull(near.second, place_at(near.second, share)));
+        return std::pair(hull_at(near.first, share), hull_at(near.second, share));
     };
     auto [first, second] = hulls(0.0);
     Vector3d normal = near.normal;
     double share = 0.0;
     double piece = 1.0;
-    while (share < 1.0 && piece >= finest_passage_share) {
+    const double finest =
+        std::clamp(passage_precision * near.apart / (travel_of(near.first) + travel_of(near.second)),
+                   finest_passage_share, coarsest_passage_share);
+    while (share < 1.0 && piece >= finest) {
         ++work_;
         const double next_share = std::min(1.0, share + piece);
         const auto [next_first, next_second] = hulls(next_share);
         if (gap_along(next_first.hull, next_second.hull, normal) < least) {
-            const PairSeparation there = pair_separation(next_first, next_second, near.apart);
-            const bool is_free = !there.overlap && there.gap >= least &&
-                                 gap_along(first.hull, second.hull, there.normal) >= 0.0;
+            const auto there = plane_between(next_first, next_second, least, normal);
+            const bool is_free =
+                there && there->gap >= least && gap_along(first.hull, second.hull, there->normal) >= 0.0;
             if (!is_free) {
                 piece *= 0.5;
                 continue;
             }
-            normal = there.normal;
+            normal = there->normal;
         }
         share = next_share;
         first = next_first;
@@ -186,10 +223,11 @@ bool IslandStep::find_passages(double time_step) {
         if (!near.began_separated()) continue;
         const double share = free_share(near);
         if (share >= 1.0) continue;
-        const HullContact contact =
-            hull_contact(hull(near.first, place_at(near.first, share)),
-                         hull(near.second, place_at(near.second, share)), 4.0 * near.apart);
-        add_points(near, contact, share, time_step);
+        const CollisionHull first = hull_at(near.first, share);
+        const CollisionHull second = hull_at(near.second, share);
+        const double reach = 4.0 * near.apart;
+        const PairSeparation there = pair_separation(first, second, reach);
+        add_points(near, hull_contact(first, second, there, reach), share, time_step);
         found = true;
     }
     return found;
@@ -205,10 +243,15 @@ void IslandStep::separate_pairs(double time_step, int round, bool& moved) {
         if (began_separated && free >= 1.0) continue;
         if (!began_separated && round > 0) continue;
         ++work_;
-        const PairSeparation there =
-            pair_separation(hull(near.first, place_at(near.first, free)),
-                            hull(near.second, place_at(near.second, free)), near.apart);
-        const Vector3d normal = began_separated && there.overlap ? near.normal : there.normal;
+        const CollisionHull first = hull_at(near.first, free);
+        const CollisionHull second = hull_at(near.second, free);
+        const auto plane = plane_between(first, second, near.apart, near.normal);
+        Vector3d normal = near.normal;
+        if (plane) {
+            normal = plane->normal;
+        } else if (!began_separated) {
+            normal = pair_separation(first, second, near.apart).normal;
+        }
         const double gap = gap_along(hull(near.first, a.place).hull, hull(near.second, b.place).hull, normal);
         double travel = separated_to * near.apart - gap;
         if (travel <= 0.0 || (began_separated && travel > most_shift * radius)) continue;
@@ -224,6 +267,8 @@ void IslandStep::separate_pairs(double time_step, int round, bool& moved) {
         b.shift -= (1.0 - share) * travel * normal;
         b.place.position -= (1.0 - share) * travel * normal;
         a.pressed = b.pressed = true;
+        change_path(a);
+        change_path(b);
         moved = true;
         keep_angular_momentum(near, share * travel * normal, (share - 1.0) * travel * normal);
     }
@@ -272,7 +317,7 @@ void IslandStep::find_overlaps() {
         const CollisionHull first = hull(near.first, movers_[near.first].place);
         const CollisionHull second = hull(near.second, movers_[near.second].place);
         if (gap_along(first.hull, second.hull, near.normal) > 0.0) continue;
-        if (!pair_separation(first, second, 0.0).overlap) continue;
+        if (plane_between(first, second, 0.0, near.normal)) continue;
         movers_[near.first].overlaps = movers_[near.second].overlaps = true;
     }
 }
@@ -293,6 +338,7 @@ void IslandStep::hold_back() {
                 mover->held = mover->held == 0 && share > 0.0 ? 1 : 2;
                 mover->place = mover->held == 2 ? mover->before : places[mover == &a ? 0 : 1];
                 mover->pressed = true;
+                change_path(*mover);
             }
             again = true;
         }

@@ -162,21 +162,20 @@ void Broadphase::find_near(Run& run) {
     std::sort(run.near.begin(), run.near.end());
 }
 
-double Broadphase::gap_between(Run& run, std::size_t a, std::size_t b) {
+bool Broadphase::may_touch(Run& run, std::size_t a, std::size_t b) {
     const Member& first = run.members[a];
     const Member& second = run.members[b];
-    const double enough = first.reach + second.reach;
+    const double reach = first.reach + second.reach;  // it only grows
     const auto [known, is_known] = run.gaps.place_of(a, b);
-    if (is_known && (known.is_whole || known.gap > enough)) return known.gap;
+    if (is_known && (known.is_near || known.reach >= reach)) return known.is_near;
     const auto hull = [&](const Member& member) {
         return CollisionHull{
             {&member.group->batch().touching(member.index).contact_points,
              member.place.orientation.toRotationMatrix(), member.place.position - first.place.position},
             &member.group->faces()};
     };
-    const double gap = pair_separation(hull(first), hull(second), enough).gap;
-    known = {gap, gap <= enough};  // a gap of more than `enough` may be larger still
-    return gap;
+    known = {reach, come_within(hull(first), hull(second), reach)};
+    return known.is_near;
 }
 
 void Broadphase::find_islands(Run& run) {
@@ -196,7 +195,7 @@ void Broadphase::find_islands(Run& run) {
             Member& first = members[a];
             Member& second = members[b];
             if (!first.is_awake && !second.is_awake) continue;
-            if (gap_between(run, a, b) > first.reach + second.reach) continue;
+            if (!may_touch(run, a, b)) continue;
             run.pairs.emplace_back(a, b);
             const std::size_t root_a = root(a);
             const std::size_t root_b = root(b);
@@ -222,8 +221,8 @@ void Broadphase::find_islands(Run& run) {
         // root() must still find the members behind it, so single bodies are marked below.
         members[i].island = root(i);
     }
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        if (counts[members[i].island] == 1) members[i].island = ContactBetween::none;
+    for (Member& member : members) {
+        if (counts[member.island] == 1) member.island = ContactBetween::none;
     }
 }
 

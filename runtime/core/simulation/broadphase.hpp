@@ -13,13 +13,13 @@
 
 namespace samara {
 
-/// The gaps between pairs of hulls that are known in a step. It allocates only while it grows.
+/// What is known of the gaps between pairs of hulls in a step. It allocates only while it grows.
 class KnownGaps {
   public:
-    /// A gap (m), or a lower bound of it.
+    /// Whether a gap is at most `reach` (m).
     struct Gap {
-        double gap = 0.0;
-        bool is_whole = false;  ///< whether it is the gap, not a bound
+        double reach = 0.0;
+        bool is_near = false;
     };
 
     /// Forgets all.
@@ -88,7 +88,7 @@ class Broadphase {
     void gather(Run& run, std::size_t number, std::uint64_t step, const Ground& ground) const;
     static void find_near(Run& run);
     static void find_islands(Run& run);
-    static double gap_between(Run& run, std::size_t a, std::size_t b);
+    static bool may_touch(Run& run, std::size_t a, std::size_t b);
     [[nodiscard]] bool went_farther(Run& run, const Ground& ground) const;
     void find_islands_and_step(Run& run, const Surroundings& surroundings, const Ground& ground) const;
     void collide_island(Run& run, const Surroundings& surroundings, const Ground& ground) const;
