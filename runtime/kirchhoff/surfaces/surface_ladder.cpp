@@ -126,6 +126,7 @@ Surface drawn_onto(const Surface& coarse, const Surface& fine, int threads) {
 }
 
 constexpr std::size_t fewest_triangles = 60;
+constexpr double quick_near_pairs = 1.5e5;  // a quarter of a second
 
 constexpr std::size_t most_samples = 200;
 constexpr double share_of_area = 0.2;
@@ -196,7 +197,7 @@ void SurfaceLadder::thin_out() {
         if (coarser.triangle_count() >= rung(index + 1).surface.triangle_count()) return;
         const double lost = std::abs(enclosed_volume(coarser) / volume - 1.0);
         if (!(lost < lost_volume_allowed)) return;
-        if (too_many_near_pairs(coarser)) continue;
+        if (near_pairs(coarser) > quick_near_pairs) continue;
         CreasedSurface chosen = rungs_.at(index);
         rungs_.clear();
         rungs_.emplace(0, std::move(chosen));
@@ -230,9 +231,9 @@ double near_pairs(const Surface& surface) {
 }
 
 bool too_many_near_pairs(const Surface& surface) {
-    constexpr double quick = 1.5e5;       // a quarter of a second
-    constexpr double of_slivers = 100.0;  // for each triangle
-    return near_pairs(surface) > std::max(quick, of_slivers * static_cast<double>(surface.triangle_count()));
+    constexpr double of_slivers = 250.0;  // for each triangle
+    const double pairs = near_pairs(surface);
+    return pairs > quick_near_pairs && pairs > of_slivers * static_cast<double>(surface.triangle_count());
 }
 
 double relative_thickness(const Surface& surface) {

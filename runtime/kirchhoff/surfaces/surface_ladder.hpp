@@ -12,8 +12,8 @@ inline constexpr double lost_volume_allowed = 2e-3;
 
 /// One body's surfaces of order 2 from coarse to fine.
 ///
-/// Rung 0 is the given surface; or, where that has too_many_near_pairs(), the finest coarser one that has
-/// not, as long as that keeps the volume to lost_volume_allowed. Each below has about half of the triangles
+/// Rung 0 is the given surface; or, where that has too_many_near_pairs(), the finest coarser one with few,
+/// as long as that keeps the volume to lost_volume_allowed. Each below has about half of the triangles
 /// of the next, some of its corners and the curvature that its own order tells: the given one for order 2,
 /// and for order 1 what rebuilding makes of their own corners alone, so that rungs differ by what rebuilding
 /// gets wrong too. Those above cut each triangle in four on the same curved surface.
