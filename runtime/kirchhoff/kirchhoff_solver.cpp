@@ -34,6 +34,7 @@ constexpr std::size_t most_flat_triangles = 120000;
 // A surface with creases is refined up to this count.
 constexpr std::size_t most_refined_triangles = 25000;
 constexpr std::size_t quick_triangles = 8000;  // and a second time up to this one
+constexpr double most_near_pairs = 6e5;        // where slivers have more, not at all
 constexpr int most_rungs = 8;
 // Below, triangles that face each other across the body are too near for collocation.
 constexpr double least_relative_thickness = 0.2;
@@ -157,8 +158,10 @@ class Solver {
         const Surface& own = ladder_.base().surface;
         const int most = has_straight_edges(own) ? most_rungs : ladder_.is_rebuilt() ? 1 : 2;
         int rung = 0;
-        for (std::size_t count = 4 * own.triangle_count(); rung < most; count *= 4) {
-            if (count > (rung == 0 ? most_refined_triangles : quick_triangles)) break;
+        double pairs = 4.0 * near_pairs(own);
+        for (std::size_t count = 4 * own.triangle_count(); rung < most; count *= 4, pairs *= 4.0) {
+            if (count > (rung == 0 ? most_refined_triangles : quick_triangles) || pairs > most_near_pairs)
+                break;
             ++rung;
         }
         return rung;
@@ -244,7 +247,8 @@ class Solver {
         KirchhoffTensor result;
         result.asymmetry = fine.asymmetry;
         // Also where it is not a number.
-        const double error = std::max({judgement.error, fine.asymmetry, fine.unresolved});
+        const double error =
+            std::max({judgement.error, fine.asymmetry, fine.unresolved}) + ladder_.lost_volume();
         result.error_estimate = judgement.error < 1.0 ? std::min(error, 1.0) : 1.0;
         result.matrix = with_positive_energy(0.5 * (judgement.tensor + judgement.tensor.transpose()),
                                              result.error_estimate);

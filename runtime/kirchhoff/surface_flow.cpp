@@ -15,7 +15,7 @@ Surface solvable_surface(const Surface& given, const VolumeMoments& moments, int
     const double length = reference_length(moments.surface_area);
     Surface surface = welded(given);
     for (Vector3d& vertex : surface.vertices) vertex = (vertex - moments.centroid) / length;
-    if (surface.triangle_count() > most_triangles) {
+    if (surface.triangle_count() > most_triangles || too_many_near_pairs(surface)) {
         SurfaceLadder ladder(surface, threads);
         int rung = 0;
         while (rung > ladder.lowest() && ladder.rung(rung).surface.triangle_count() > most_triangles) --rung;

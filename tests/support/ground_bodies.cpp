@@ -23,8 +23,7 @@ ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& f
     return make_immersed_body(body, given, fluid);
 }
 
-Surface disc(double radius, double thickness) {
-    constexpr int sides = 96;
+Surface disc(double radius, double thickness, int sides) {
     Surface surface;
     for (const double z : {-0.5 * thickness, 0.5 * thickness}) {
         surface.vertices.emplace_back(0.0, 0.0, z);
@@ -33,7 +32,7 @@ Surface disc(double radius, double thickness) {
             surface.vertices.emplace_back(radius * std::cos(turn), radius * std::sin(turn), z);
         }
     }
-    constexpr int top = sides + 1;
+    const int top = sides + 1;
     for (int i = 0; i < sides; ++i) {
         const int a = 1 + i;
         const int b = 1 + (i + 1) % sides;

@@ -12,7 +12,7 @@ ImmersedBody uniform_body(const Surface& surface, double density, const Fluid& f
                           Loads loads = Loads::coefficients);
 
 /// Returns a disc about the origin, its axis along z, its rim a polygon of 96 sides.
-Surface disc(double radius, double thickness);
+Surface disc(double radius, double thickness, int sides = 96);
 
 /// Returns a start above the ground: at rest, its lowest point `drop` (m) above the height 0.
 BodyState above_ground(const ImmersedBody& body, const Quaterniond& orientation, double drop);

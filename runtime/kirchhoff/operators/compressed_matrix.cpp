@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<float>;
 using Lanes = hn::Vec<Tag>;
 
-constexpr std::size_t columns_at_once = 6;
+constexpr std::size_t columns_at_once = 9;
 
 /// Adds to result (rows x 18) the product matrix (rows x inner, column by column) times factor (inner x 18).
 /// The strides are those of the 18 columns.
@@ -212,7 +212,63 @@ std::vector<std::vector<std::size_t>> grouped(const std::vector<Block>& blocks) 
     return groups;
 }
 
+/// Places in a list, and the triangles of a block that stand there.
+struct ListPart {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+ListPart part_within(const std::vector<std::size_t>& triangles, std::size_t begin, std::size_t size) {
+    const auto place = [&](std::size_t triangle) {
+        return static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), triangle) -
+                                        triangles.begin());
+    };
+    return {place(begin), place(begin + size)};
+}
+
+/// Returns some rows of a block's factor, whose first row is the triangle `first`.
+Eigen::MatrixXf rows_of(const std::vector<float>& factor, std::size_t rows, std::size_t columns,
+                        std::size_t first, const std::vector<std::size_t>& triangles, const ListPart& part) {
+    Eigen::MatrixXf result(eigen_index(part.end - part.begin), eigen_index(columns));
+    for (std::size_t j = 0; j < columns; ++j) {
+        for (std::size_t i = part.begin; i < part.end; ++i) {
+            result(eigen_index(i - part.begin), eigen_index(j)) = factor[j * rows + triangles[i] - first];
+        }
+    }
+    return result;
+}
+
 }  // namespace
+
+Eigen::MatrixXd CompressedMatrix::part(const std::vector<std::size_t>& triangles) const {
+    Eigen::MatrixXd result(eigen_index(triangles.size()), eigen_index(triangles.size()));
+    for (const Block& block : blocks_) {
+        const ListPart rows = part_within(triangles, block.row_begin, block.rows);
+        if (rows.begin == rows.end) continue;
+        const ListPart columns = part_within(triangles, block.column_begin, block.columns);
+        if (columns.begin == columns.end) continue;
+        Eigen::MatrixXf values;
+        if (block.right.empty()) {
+            values.resize(eigen_index(rows.end - rows.begin), eigen_index(columns.end - columns.begin));
+            for (std::size_t j = columns.begin; j < columns.end; ++j) {
+                const float* column = block.left.data() + (triangles[j] - block.column_begin) * block.rows;
+                for (std::size_t i = rows.begin; i < rows.end; ++i) {
+                    values(eigen_index(i - rows.begin), eigen_index(j - columns.begin)) =
+                        column[triangles[i] - block.row_begin];
+                }
+            }
+        } else {
+            values = rows_of(block.left, block.rows, block.rank, block.row_begin, triangles, rows) *
+                     rows_of(block.right, block.columns, block.rank, block.column_begin, triangles, columns)
+                         .transpose();
+        }
+        result.block(eigen_index(rows.begin), eigen_index(columns.begin), values.rows(), values.cols()) =
+            values.cast<double>();
+        result.block(eigen_index(columns.begin), eigen_index(rows.begin), values.cols(), values.rows()) =
+            values.transpose().cast<double>();
+    }
+    return result;
+}
 
 CompressedMatrix::CompressedMatrix(const SingleLayerEntries& entries, const ClusterTree& tree,
                                    double tolerance, int threads, const std::function<void(double)>& progress)

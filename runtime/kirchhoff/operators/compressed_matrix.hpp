@@ -26,6 +26,9 @@ class CompressedMatrix {
     /// Returns the matrix times 18 columns.
     [[nodiscard]] CurlColumns times(const CurlColumns& columns, int threads) const;
 
+    /// Returns the rows and columns of some triangles, whose indices ascend.
+    [[nodiscard]] Eigen::MatrixXd part(const std::vector<std::size_t>& triangles) const;
+
     /// Returns the bytes that the blocks take.
     [[nodiscard]] std::size_t memory() const;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace samara {
 namespace {
@@ -43,37 +43,28 @@ Eigen::Index largest_unused(const Vector& values, const std::vector<bool>& used)
     return best;
 }
 
-/// Cuts a product to the rank that the tolerance takes, by QR of both factors and the singular values of the
-/// small product in between.
+/// Cuts a product to the rank that the tolerance takes, by the eigenvalues of the small products of its
+/// factors: squares of singular values, whose rounding is 1e-8 of the largest singular value.
 LowRank cut(const Cross& cross, double tolerance) {
-    const Eigen::Index rank = cross.rank;
-    const Eigen::HouseholderQR<Matrix> left(cross.left.leftCols(rank));
-    const Eigen::HouseholderQR<Matrix> right(cross.right.leftCols(rank));
-    const Matrix left_triangle = left.matrixQR().topRows(rank).template triangularView<Eigen::Upper>();
-    const Matrix right_triangle = right.matrixQR().topRows(rank).template triangularView<Eigen::Upper>();
-    const Eigen::JacobiSVD<Matrix> values(left_triangle * right_triangle.transpose(),
-                                          Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Vector& singular = values.singularValues();
-    const double allowed = tolerance * tolerance * singular.squaredNorm();
-    Eigen::Index kept = rank;
+    const auto left = cross.left.leftCols(cross.rank);
+    const auto right = cross.right.leftCols(cross.rank);
+    const Eigen::LLT<Matrix> root(right.transpose() * right);
+    const Matrix lower = root.matrixL();
+    const Matrix inner = lower.transpose() * (left.transpose() * left) * lower;
+    const Eigen::SelfAdjointEigenSolver<Matrix> squares(inner);
+    const double allowed = tolerance * tolerance * squares.eigenvalues().sum();
+    Eigen::Index kept = cross.rank;
     for (double rest = 0.0; kept > 1; --kept) {
-        rest += singular[kept - 1] * singular[kept - 1];
+        rest += std::max(squares.eigenvalues()[cross.rank - kept], 0.0);
         if (rest > allowed) break;
     }
-    Matrix small_left = Matrix::Zero(cross.left.rows(), kept);
-    small_left.topRows(rank) = values.matrixU().leftCols(kept) * singular.head(kept).asDiagonal();
-    Matrix small_right = Matrix::Zero(cross.right.rows(), kept);
-    small_right.topRows(rank) = values.matrixV().leftCols(kept);
-    small_left.applyOnTheLeft(left.householderQ());
-    small_right.applyOnTheLeft(right.householderQ());
-    LowRank result{static_cast<std::size_t>(kept), {}, {}};
+    const Matrix vectors = squares.eigenvectors().rightCols(kept);
     const auto as_floats = [](const Matrix& matrix) {
         const Eigen::MatrixXf single = matrix.cast<float>();
         return std::vector<float>(single.data(), single.data() + single.size());
     };
-    result.left = as_floats(small_left);
-    result.right = as_floats(small_right);
-    return result;
+    return {static_cast<std::size_t>(kept), as_floats(left * (lower * vectors)),
+            as_floats(right * root.matrixU().solve(vectors))};
 }
 
 /// A block of the matrix and what its approximation leaves of it.

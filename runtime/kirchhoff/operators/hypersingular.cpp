@@ -198,7 +198,9 @@ BoundaryElementResult solve_compressed(const LinearElements& elements, const Bou
                                         part_of(options.progress, 0.0, 0.3));
     const RotationLoads rotations =
         rotation_loads(elements, options.threads, part_of(options.progress, 0.3, 0.7));
-    const SchwarzPreconditioner preconditioner(elements, entries, schwarz_cluster, options.threads);
+    const SchwarzPreconditioner preconditioner(
+        elements, [&](const std::vector<std::size_t>& triangles) { return single_layer.part(triangles); },
+        schwarz_cluster, options.threads);
     const SixColumns loads =
         all_loads(elements, rotations, coordinate_loads(elements, single_layer, options.threads));
     BoundaryElementResult result;

@@ -10,17 +10,11 @@
 
 namespace samara {
 
-/// Point sources, coordinate by coordinate: the three rotations' strengths and an area vector each.
+/// Point sources in single precision, coordinate by coordinate: the three rotations' strengths and an area
+/// vector each.
 struct RotationSources {
-    std::size_t stride = 0;  ///< distance in the arrays between two points of a triangle
-    std::array<std::vector<double>, 3> place;
-    std::array<std::vector<double>, 3> strength;
-    std::array<std::vector<double>, 3> area_vector;
-};
-
-/// One source a triangle, in single precision for those very far off.
-struct DistantSources {
-    std::array<std::vector<float>, 3> place;
+    std::size_t stride = 0;                   ///< distance in the arrays between two points of a triangle
+    std::array<std::vector<float>, 3> place;  ///< from the middle of the triangle's group
     std::array<std::vector<float>, 3> strength;
     std::array<std::vector<float>, 3> area_vector;
 };
@@ -32,15 +26,16 @@ struct SourceGroup {
     Vector3d low;  ///< corners of the box that holds them
     Vector3d high;
     double radius;  ///< the largest
+
+    [[nodiscard]] Vector3d middle() const { return 0.5 * (low + high); }
 };
 
 /// Sources in one, three or six points a triangle, and batches for the near ones.
 struct RotationSourceSets {
-    DistantSources distant;
     RotationSources one;
     RotationSources three;
     RotationSources six;
-    std::vector<double> radius;
+    std::vector<float> radius;
     std::vector<SourceGroup> groups;
     std::vector<std::array<SourceBatch, 2>> near;
 };

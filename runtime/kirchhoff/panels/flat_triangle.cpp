@@ -69,17 +69,22 @@ ClusterTree cluster_tree(const std::vector<FlatTriangle>& triangles, std::size_t
     tree.clusters.push_back(make_cluster(triangles, tree.order, 0, triangles.size()));
     for (std::size_t c = 0; c < tree.clusters.size(); ++c) {
         const Cluster cluster = tree.clusters[c];
-        if (cluster.size() <= leaf_size) continue;
         Eigen::Index axis = 0;
         (cluster.high - cluster.low).maxCoeff(&axis);
         const auto place = [&](std::size_t i) { return tree.order.begin() + static_cast<std::ptrdiff_t>(i); };
-        const std::size_t middle = cluster.begin + cluster.size() / 2;
         // Ties are broken by index, so that the order is the same everywhere.
-        std::nth_element(place(cluster.begin), place(middle), place(cluster.end), [&](auto i, auto j) {
+        const auto before = [&](auto i, auto j) {
             const double x = triangles[i].centroid[axis];
             const double y = triangles[j].centroid[axis];
             return x < y || (x == y && i < j);
-        });
+        };
+        if (cluster.size() <= leaf_size) {
+            // So that those of one vector register are near each other.
+            std::sort(place(cluster.begin), place(cluster.end), before);
+            continue;
+        }
+        const std::size_t middle = cluster.begin + cluster.size() / 2;
+        std::nth_element(place(cluster.begin), place(middle), place(cluster.end), before);
         tree.clusters[c].left = tree.clusters.size();
         tree.clusters[c].right = tree.clusters.size() + 1;
         tree.clusters.push_back(make_cluster(triangles, tree.order, cluster.begin, middle));

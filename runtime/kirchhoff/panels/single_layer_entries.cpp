@@ -7,6 +7,14 @@
 #include "samara/kirchhoff/panels/flat_triangle_integrals.hpp"
 #include "samara/kirchhoff/panels/triangle_rules.hpp"
 
+#ifndef SAMARA_SINGLE_LAYER_ENTRIES_LANES
+#define SAMARA_SINGLE_LAYER_ENTRIES_LANES
+namespace samara {
+inline constexpr std::size_t most_lanes_of_entries =
+    16;  // arrays are read this far beyond their last triangle
+}
+#endif
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "samara/kirchhoff/panels/single_layer_entries.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -20,31 +28,38 @@ namespace samara::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<double, 8>;
+using Tag = hn::CappedTag<float, most_lanes_of_entries>;
 using Lanes = hn::Vec<Tag>;
 
-/// Sums of 1/r between the points of one triangle and those of as many others as there are lanes.
-template <int newton_steps>
+/// Returns the differences of as many numbers as there are lanes from one, which round only once.
+HWY_INLINE Lanes differences(const double* values, double from) {
+    const Tag tag;
+    HWY_ALIGN float single[most_lanes_of_entries];
+    for (std::size_t k = 0; k < hn::Lanes(tag); ++k) single[k] = static_cast<float>(values[k] - from);
+    return hn::Load(tag, single);
+}
+
+/// Sums of 1/r between the points of one triangle and those of as many others as there are lanes, whose
+/// centroids are at (x, y, z) from that one's.
 HWY_INLINE Lanes product_rule(const SingleLayerEntries::Arrays& arrays,
-                              const SingleLayerEntries::RulePoints& rule, std::size_t row,
-                              std::size_t column) {
+                              const SingleLayerEntries::RulePoints& rule, std::size_t row, std::size_t column,
+                              Lanes x, Lanes y, Lanes z) {
     const Tag tag;
     Lanes sum = hn::Zero(tag);
     const std::size_t count = rule.weights.size();
     for (std::size_t q = 0; q < count; ++q) {
         const std::size_t there = q * arrays.stride + column;
-        const Lanes x = hn::LoadU(tag, &rule.coordinates[0][there]);
-        const Lanes y = hn::LoadU(tag, &rule.coordinates[1][there]);
-        const Lanes z = hn::LoadU(tag, &rule.coordinates[2][there]);
+        const Lanes to_x = hn::Add(x, hn::LoadU(tag, &rule.coordinates[0][there]));
+        const Lanes to_y = hn::Add(y, hn::LoadU(tag, &rule.coordinates[1][there]));
+        const Lanes to_z = hn::Add(z, hn::LoadU(tag, &rule.coordinates[2][there]));
         Lanes inner = hn::Zero(tag);
         for (std::size_t p = 0; p < count; ++p) {
             const std::size_t here = p * arrays.stride + row;
-            const Lanes dx = hn::Sub(x, hn::Set(tag, rule.coordinates[0][here]));
-            const Lanes dy = hn::Sub(y, hn::Set(tag, rule.coordinates[1][here]));
-            const Lanes dz = hn::Sub(z, hn::Set(tag, rule.coordinates[2][here]));
+            const Lanes dx = hn::Sub(to_x, hn::Set(tag, rule.coordinates[0][here]));
+            const Lanes dy = hn::Sub(to_y, hn::Set(tag, rule.coordinates[1][here]));
+            const Lanes dz = hn::Sub(to_z, hn::Set(tag, rule.coordinates[2][here]));
             const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-            inner =
-                hn::MulAdd(hn::Set(tag, rule.weights[p]), inverse_root<newton_steps>(tag, squared), inner);
+            inner = hn::MulAdd(hn::Set(tag, rule.weights[p]), inverse_root(tag, squared), inner);
         }
         sum = hn::MulAdd(hn::Set(tag, rule.weights[q]), inner, sum);
     }
@@ -52,23 +67,20 @@ HWY_INLINE Lanes product_rule(const SingleLayerEntries::Arrays& arrays,
 }
 
 /// Fills values with V(row, begin...), and marks in `near` where a pair is too near for the rules.
-void fill_far_lanes(const SingleLayerEntries::Arrays& arrays, const std::array<double, 3>& distances,
+void fill_far_lanes(const SingleLayerEntries::Arrays& arrays, const std::array<float, 3>& distances,
                     std::size_t row, std::size_t begin, std::size_t end, double* values,
                     std::vector<std::size_t>& near) {
     const Tag tag;
     const std::size_t lanes = hn::Lanes(tag);
-    const Lanes x = hn::Set(tag, arrays.centroid[0][row]);
-    const Lanes y = hn::Set(tag, arrays.centroid[1][row]);
-    const Lanes z = hn::Set(tag, arrays.centroid[2][row]);
     const Lanes radius = hn::Set(tag, arrays.radius[row]);
-    const Lanes scale = hn::Set(tag, arrays.area[row] / (4.0 * std::numbers::pi));
-    HWY_ALIGN double buffer[8] = {};
-    HWY_ALIGN double ratios[8];
+    const Lanes scale = hn::Set(tag, arrays.area[row] / static_cast<float>(4.0 * std::numbers::pi));
+    HWY_ALIGN float buffer[most_lanes_of_entries] = {};
+    HWY_ALIGN float ratios[most_lanes_of_entries];
     for (std::size_t j = begin; j < end; j += lanes) {
-        const Lanes dx = hn::Sub(hn::LoadU(tag, &arrays.centroid[0][j]), x);
-        const Lanes dy = hn::Sub(hn::LoadU(tag, &arrays.centroid[1][j]), y);
-        const Lanes dz = hn::Sub(hn::LoadU(tag, &arrays.centroid[2][j]), z);
-        const Lanes squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+        const Lanes x = differences(&arrays.centroid[0][j], arrays.centroid[0][row]);
+        const Lanes y = differences(&arrays.centroid[1][j], arrays.centroid[1][row]);
+        const Lanes z = differences(&arrays.centroid[2][j], arrays.centroid[2][row]);
+        const Lanes squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
         const Lanes reach = hn::Add(radius, hn::LoadU(tag, &arrays.radius[j]));
         const Lanes ratio = hn::Div(squared, hn::Mul(reach, reach));
         const auto beyond = [&](std::size_t rule) HWY_ATTR {
@@ -77,8 +89,7 @@ void fill_far_lanes(const SingleLayerEntries::Arrays& arrays, const std::array<d
         const std::size_t rule = beyond(0) ? 0 : beyond(1) ? 1 : 2;
         const bool any = !hn::AllTrue(tag, hn::Lt(ratio, hn::Set(tag, distances[2] * distances[2])));
         if (any) {
-            const Lanes sum = rule == 0 ? product_rule<1>(arrays, arrays.rules[0], row, j)
-                                        : product_rule<2>(arrays, arrays.rules[rule], row, j);
+            const Lanes sum = product_rule(arrays, arrays.rules[rule], row, j, x, y, z);
             hn::Store(hn::Mul(hn::Mul(sum, scale), hn::LoadU(tag, &arrays.area[j])), tag, buffer);
         }
         const std::size_t count = std::min(lanes, end - j);
@@ -88,7 +99,7 @@ void fill_far_lanes(const SingleLayerEntries::Arrays& arrays, const std::array<d
                 if (!(ratios[k] > distances[2] * distances[2])) near.push_back(j + k);
             }
         }
-        for (std::size_t k = 0; k < count; ++k) values[j - begin + k] = buffer[k];
+        for (std::size_t k = 0; k < count; ++k) values[j - begin + k] = static_cast<double>(buffer[k]);
     }
 }
 
@@ -103,22 +114,22 @@ namespace {
 HWY_EXPORT(fill_far_lanes);
 
 // Least distances of the centroids, in sums of both radii, that suffice for the rules of 3, 6 and 12 points.
-constexpr std::array<double, 3> rule_distances = {9.0, 2.4, 1.2};
+constexpr std::array<float, 3> rule_distances = {10.0F, 3.0F, 1.2F};
 // The 16-point rule serves where the other triangle's edges are this many radii away.
 constexpr double outer_rule_distance = 3.0;
-constexpr std::size_t padding = 8;
 
 SingleLayerEntries::RulePoints points_of(const std::vector<FlatTriangle>& triangles, std::size_t stride,
                                          const std::vector<RulePoint>& rule) {
     SingleLayerEntries::RulePoints result;
-    for (auto& coordinate : result.coordinates) coordinate.assign(rule.size() * stride, 1e3);
+    for (auto& coordinate : result.coordinates) coordinate.assign(rule.size() * stride, 0.0F);
     for (std::size_t p = 0; p < rule.size(); ++p) {
-        result.weights.push_back(rule[p].weight);
+        result.weights.push_back(static_cast<float>(rule[p].weight));
         for (std::size_t t = 0; t < triangles.size(); ++t) {
-            Vector3d point = Vector3d::Zero();
+            Vector3d point = -triangles[t].centroid;
             for (std::size_t k = 0; k < 3; ++k) point += rule[p].corner_shares[k] * triangles[t].corners[k];
             for (std::size_t c = 0; c < 3; ++c) {
-                result.coordinates[c][p * stride + t] = point[static_cast<Eigen::Index>(c)];
+                result.coordinates[c][p * stride + t] =
+                    static_cast<float>(point[static_cast<Eigen::Index>(c)]);
             }
         }
     }
@@ -158,16 +169,16 @@ double by_outer_rule(const FlatTriangle& outer, const FlatTriangle& inner) {
 
 SingleLayerEntries::SingleLayerEntries(std::vector<FlatTriangle> triangles)
     : triangles_(std::move(triangles)) {
-    arrays_.stride = triangles_.size() + padding;
+    arrays_.stride = triangles_.size() + most_lanes_of_entries;
     for (auto& coordinate : arrays_.centroid) coordinate.assign(arrays_.stride, 1e3);
-    arrays_.radius.assign(arrays_.stride, 0.0);
-    arrays_.area.assign(arrays_.stride, 0.0);
+    arrays_.radius.assign(arrays_.stride, 0.0F);
+    arrays_.area.assign(arrays_.stride, 0.0F);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         for (std::size_t c = 0; c < 3; ++c) {
             arrays_.centroid[c][t] = triangles_[t].centroid[static_cast<Eigen::Index>(c)];
         }
-        arrays_.radius[t] = triangles_[t].radius;
-        arrays_.area[t] = triangles_[t].area;
+        arrays_.radius[t] = static_cast<float>(triangles_[t].radius);
+        arrays_.area[t] = static_cast<float>(triangles_[t].area);
     }
     arrays_.rules = {points_of(triangles_, arrays_.stride, symmetric_rule(2)),
                      points_of(triangles_, arrays_.stride, symmetric_rule(4)),

@@ -11,7 +11,7 @@ namespace samara {
 /// V_ij = double integral of 1 / (4 pi r) over the triangles i and j: symmetric and positive definite.
 ///
 /// Near pairs are integrated to about 1e-8 of the entry (pair_potential); distant ones by products of rules
-/// with 12, 6 or 3 points a triangle, whose relative error stays below about 1e-6.
+/// with 12, 6 or 3 points a triangle in single precision, whose relative error stays below about 1e-6.
 class SingleLayerEntries {
   public:
     /// Prepares the rules of the triangles. Triangles that follow each other should be neighbours in space:
@@ -24,10 +24,11 @@ class SingleLayerEntries {
     /// Writes V(row, begin) to V(row, end - 1) to `values`.
     void fill_row(std::size_t row, std::size_t begin, std::size_t end, double* values) const;
 
-    /// The quadrature points of one rule: coordinate arrays by point, then by triangle.
+    /// The quadrature points of one rule, from the triangle's centroid: coordinate arrays by point, then by
+    /// triangle.
     struct RulePoints {
-        std::vector<double> weights;  ///< shares of the area
-        std::array<std::vector<double>, 3> coordinates;
+        std::vector<float> weights;  ///< shares of the area
+        std::array<std::vector<float>, 3> coordinates;
     };
 
     /// The triangles as fill_row() reads them, coordinate by coordinate for vector registers; padded beyond
@@ -35,8 +36,8 @@ class SingleLayerEntries {
     struct Arrays {
         std::size_t stride = 0;
         std::array<std::vector<double>, 3> centroid;
-        std::vector<double> radius;
-        std::vector<double> area;
+        std::vector<float> radius;
+        std::vector<float> area;
         std::array<RulePoints, 3> rules;  ///< of 3, 6 and 12 points
     };
 

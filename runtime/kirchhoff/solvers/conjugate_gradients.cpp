@@ -35,8 +35,9 @@ Vector6d allowed(const Vector6d& energies, double tolerance) {
 }
 
 // Added to the diagonal, relative to its mean: where a cluster is a whole component, its constants have no
-// resistance at all.
-constexpr double shift = 1e-9;
+// resistance at all, or where V is rounded to single precision, as much below zero.
+constexpr double least_shift = 1e-9;
+constexpr double most_shift = 1e-6;
 
 using NodeTriangles = std::vector<std::vector<std::size_t>>;
 
@@ -71,29 +72,9 @@ std::vector<std::size_t> triangles_at(const NodeTriangles& triangles, const std:
     return result;
 }
 
-/// Returns V of some triangles, in ascending order.
-Eigen::MatrixXd local_single_layer(const SingleLayerEntries& entries,
-                                   const std::vector<std::size_t>& triangles) {
-    Eigen::MatrixXd matrix(eigen_index(triangles.size()), eigen_index(triangles.size()));
-    std::vector<double> row(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        for (std::size_t j = i; j < triangles.size();) {
-            std::size_t end = j + 1;  // of the triangles that follow each other
-            while (end < triangles.size() && triangles[end] == triangles[end - 1] + 1) ++end;
-            entries.fill_row(triangles[i], triangles[j], triangles[end - 1] + 1, row.data());
-            for (std::size_t k = j; k < end; ++k) {
-                matrix(eigen_index(i), eigen_index(k)) = matrix(eigen_index(k), eigen_index(i)) = row[k - j];
-            }
-            j = end;
-        }
-    }
-    return matrix;
-}
-
-Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const SingleLayerEntries& entries,
+Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const Eigen::MatrixXd& single_layer,
                                     const std::vector<std::size_t>& nodes,
                                     const std::vector<std::size_t>& triangles) {
-    const Eigen::MatrixXd single_layer = local_single_layer(entries, triangles);
     std::unordered_map<std::size_t, Eigen::Index> place;
     for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = eigen_index(i);
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(eigen_index(nodes.size()), eigen_index(nodes.size()));
@@ -119,8 +100,17 @@ Eigen::MatrixXd local_hypersingular(const LinearElements& elements, const Single
             if (places[t][k] >= 0) matrix.col(places[t][k]) += row.transpose() * curls[t][k];
         }
     }
-    matrix.diagonal().array() += shift * matrix.diagonal().mean();
     return matrix;
+}
+
+/// Returns Cholesky's factor of the matrix.
+Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& matrix) {
+    for (double shift = least_shift;; shift *= 100.0) {
+        Eigen::MatrixXd shifted = matrix;
+        shifted.diagonal().array() += shift * matrix.diagonal().mean();
+        const Eigen::LLT<Eigen::MatrixXd> factors(shifted);
+        if (factors.info() == Eigen::Success || shift > most_shift) return factors.matrixL();
+    }
 }
 
 /// Returns the largest clusters of the tree of no more than `size` triangles.
@@ -183,7 +173,7 @@ std::optional<SolutionEnergies> conjugate_gradients(
 }
 
 SchwarzPreconditioner::SchwarzPreconditioner(const LinearElements& elements,
-                                             const SingleLayerEntries& entries, std::size_t cluster_size,
+                                             const SingleLayerPart& single_layer, std::size_t cluster_size,
                                              int threads) {
     const NodeTriangles triangles = triangles_of_nodes(elements);
     const std::vector<Cluster> clusters = clusters_up_to(elements.tree, cluster_size);
@@ -193,9 +183,8 @@ SchwarzPreconditioner::SchwarzPreconditioner(const LinearElements& elements,
         for (std::size_t i = 0; i < own.size(); ++i) own[i] = clusters[c].begin + i;
         Part& part = parts_[c];
         part.nodes = nodes_of(elements, own);
-        const Eigen::MatrixXd matrix =
-            local_hypersingular(elements, entries, part.nodes, triangles_at(triangles, part.nodes));
-        part.factor = matrix.llt().matrixL();
+        const std::vector<std::size_t> around = triangles_at(triangles, part.nodes);
+        part.factor = lower_factor(local_hypersingular(elements, single_layer(around), part.nodes, around));
     });
 }
 

@@ -6,7 +6,6 @@
 
 #include "samara/core/base/linear_algebra.hpp"
 #include "samara/kirchhoff/panels/linear_elements.hpp"
-#include "samara/kirchhoff/panels/single_layer_entries.hpp"
 
 namespace samara {
 
@@ -33,9 +32,12 @@ std::optional<SolutionEnergies> conjugate_gradients(
 /// hardly resists.
 class SchwarzPreconditioner {
   public:
-    /// Factorises the matrix on clusters of up to `cluster_size` triangles. The result does not depend on
-    /// `threads` (0: all cores).
-    SchwarzPreconditioner(const LinearElements& elements, const SingleLayerEntries& entries,
+    /// The single-layer matrix V of some triangles, whose indices ascend.
+    using SingleLayerPart = std::function<Eigen::MatrixXd(const std::vector<std::size_t>& triangles)>;
+
+    /// Factorises the matrix on clusters of up to `cluster_size` triangles. `single_layer` is called from
+    /// several threads at once. The result does not depend on `threads` (0: all cores).
+    SchwarzPreconditioner(const LinearElements& elements, const SingleLayerPart& single_layer,
                           std::size_t cluster_size, int threads);
 
     /// Returns the sum of the clusters' solutions for the residuals.

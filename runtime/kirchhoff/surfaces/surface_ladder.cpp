@@ -1,6 +1,7 @@
 #include "samara/kirchhoff/surfaces/surface_ladder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -125,6 +126,7 @@ Surface drawn_onto(const Surface& coarse, const Surface& fine, int threads) {
 }
 
 constexpr std::size_t fewest_triangles = 60;
+constexpr double quick_near_pairs = 1.5e5;  // a quarter of a second
 
 constexpr std::size_t most_samples = 200;
 constexpr double share_of_area = 0.2;
@@ -168,6 +170,7 @@ SurfaceLadder::SurfaceLadder(const Surface& surface, int threads)
     Creases creases = find_creases(surface);
     Surface curved = surface.order() == 2 ? surface : rebuilt_surface(surface, creases, threads);
     rungs_.emplace(0, CreasedSurface{std::move(curved), std::move(creases)});
+    if (too_many_near_pairs(surface)) thin_out();
 }
 
 int SurfaceLadder::lowest() const {
@@ -185,6 +188,52 @@ const CreasedSurface& SurfaceLadder::rung(int index) {
     coarse.surface = is_rebuilt_ ? rebuilt_surface(coarse.surface, coarse.creases, threads_)
                                  : drawn_onto(coarse.surface, base().surface, threads_);
     return rungs_.emplace(index, std::move(coarse)).first->second;
+}
+
+void SurfaceLadder::thin_out() {
+    const double volume = enclosed_volume(without_edge_nodes(base().surface));
+    for (int index = -1; index >= lowest(); --index) {
+        const Surface& coarser = rung(index).surface;
+        if (coarser.triangle_count() >= rung(index + 1).surface.triangle_count()) return;
+        const double lost = std::abs(enclosed_volume(coarser) / volume - 1.0);
+        if (!(lost < lost_volume_allowed)) return;
+        if (near_pairs(coarser) > quick_near_pairs) continue;
+        CreasedSurface chosen = rungs_.at(index);
+        rungs_.clear();
+        rungs_.emplace(0, std::move(chosen));
+        lost_volume_ = lost;
+        return;
+    }
+}
+
+double near_pairs(const Surface& surface) {
+    constexpr double reach = 1.2;  // in sums of both radii
+    const std::size_t count = surface.triangle_count();
+    std::vector<Vector3d> centroids(count);
+    std::vector<double> radii(count, 0.0);
+    for (std::size_t t = 0; t < count; ++t) {
+        centroids[t] = triangle_centroid(surface, t);
+        for (const std::int32_t corner : surface.corners[t]) {
+            radii[t] = std::max(radii[t], (surface.vertices[as_index(corner)] - centroids[t]).norm());
+        }
+    }
+    const std::size_t stride = count / most_samples + 1;
+    std::size_t samples = 0;
+    std::size_t near = 0;
+    for (std::size_t t = 0; t < count; t += stride) {
+        ++samples;
+        for (std::size_t other = 0; other < count; ++other) {
+            const double distance = reach * (radii[t] + radii[other]);
+            if ((centroids[other] - centroids[t]).squaredNorm() < distance * distance) ++near;
+        }
+    }
+    return 0.5 * static_cast<double>(near) * static_cast<double>(count) / static_cast<double>(samples);
+}
+
+bool too_many_near_pairs(const Surface& surface) {
+    constexpr double of_slivers = 250.0;  // for each triangle
+    const double pairs = near_pairs(surface);
+    return pairs > quick_near_pairs && pairs > of_slivers * static_cast<double>(surface.triangle_count());
 }
 
 double relative_thickness(const Surface& surface) {

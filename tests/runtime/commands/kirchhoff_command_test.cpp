@@ -54,12 +54,21 @@ TEST(KirchhoffCommand, PrintsOneJsonObject) {
 
 TEST(KirchhoffCommand, AboutAnotherPointCouplesRotationToTranslation) {
     const test::TemporaryFolder folder;
-    const test::ProgramRun outcome =
-        samara(folder, {"kirchhoff", write_ellipsoid(folder), "--json", "--about", "-0.5,-0.25,1"});
-    ASSERT_EQ(outcome.status, 0) << outcome.error;
-    const nlohmann::json result = outcome.json();
-    // The centroid is 1 m along x from the point: v_centroid = v + omega_z y, so p_y of omega_z is M_y.
-    EXPECT_NEAR(result["added_mass"][4][2].get<double>(), result["added_mass"][4][4].get<double>(), 1e-6);
+    const std::string file = write_ellipsoid(folder);
+    const auto tensor = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"kirchhoff", file, "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const test::ProgramRun outcome = samara(folder, words);
+        EXPECT_EQ(outcome.status, 0) << outcome.error;
+        return outcome.json();
+    };
+    const auto entry = [](const nlohmann::json& of, std::size_t row, std::size_t column) {
+        return of["added_mass"][row][column].get<double>();
+    };
+    const nlohmann::json own = tensor({});
+    const nlohmann::json result = tensor({"--about", "-0.5,-0.25,1"});
+    // The centroid is 1 m along x from the point: v_centroid = v + omega_z y, so p_y of omega_z gains M_y.
+    EXPECT_NEAR(entry(result, 4, 2), entry(own, 4, 2) + entry(own, 4, 4), 1e-12 * entry(own, 4, 4));
     EXPECT_EQ(result["reference_point"], nlohmann::json({-0.5, -0.25, 1.0}));
 }
 

@@ -103,6 +103,17 @@ TEST(KirchhoffHardCases, SliversDoNotSpoilTheResult) {
     EXPECT_LT(relative_tensor_error(tensor.matrix, expected, {1.0, 6.0}), 0.02);
 }
 
+TEST(KirchhoffHardCases, ADiscOfThousandsOfSliversIsThatOfFewer) {
+    const Matrix6d expected = tensor_of(test::disc(1.0, 0.1)).matrix;
+    for (const int sides : {400, 1600}) {
+        const KirchhoffTensor tensor = tensor_of(test::disc(1.0, 0.1, sides));
+        EXPECT_LT(tensor.triangles, 6000) << sides;
+        const double error = relative_tensor_error(tensor.matrix, expected, {0.31, 6.9});
+        EXPECT_LT(error, 5e-3) << sides;
+        EXPECT_LT(error, tensor.error_estimate) << sides;
+    }
+}
+
 TEST(KirchhoffHardCases, ABodyOfAMicrometreAndOneOfAKilometreAreAlike) {
     const Surface surface = test::ellipsoid({1.0, 0.7, 0.4}, 2);
     const Matrix6d unit = tensor_of(surface).matrix;

@@ -14,12 +14,15 @@ namespace {
 struct Equations {
     explicit Equations(const Surface& surface)
         : elements(linear_elements(surface, 16)),
-          entries(elements.triangles),
-          matrix(dense_hypersingular(elements, dense_single_layer(entries, 0), 0)) {}
+          single_layer(dense_single_layer(SingleLayerEntries(elements.triangles), 0)),
+          matrix(dense_hypersingular(elements, single_layer, 0)) {}
 
     [[nodiscard]] Eigen::Index size() const { return matrix.rows(); }
-    [[nodiscard]] SchwarzPreconditioner preconditioner(std::size_t cluster_size) const {
-        return {elements, entries, cluster_size, 0};
+    [[nodiscard]] SchwarzPreconditioner preconditioner(std::size_t cluster_size, int threads = 0) const {
+        const auto part = [&](const std::vector<std::size_t>& triangles) -> Eigen::MatrixXd {
+            return single_layer(triangles, triangles);
+        };
+        return {elements, part, cluster_size, threads};
     }
     /// Six columns for which the equations have solutions, different at every node.
     [[nodiscard]] SixColumns right_hand_sides() const {
@@ -38,7 +41,7 @@ struct Equations {
     }
 
     LinearElements elements;
-    SingleLayerEntries entries;
+    RowMatrix single_layer;
     RowMatrix matrix;
 };
 
@@ -136,9 +139,8 @@ TEST(SchwarzPreconditioner, NeedsNoMoreIterationsTheThinnerThePlate) {
 
 TEST(SchwarzPreconditioner, IsTheSameForAnyNumberOfThreads) {
     const SixColumns loads = plate().right_hand_sides();
-    const SixColumns by_one = SchwarzPreconditioner(plate().elements, plate().entries, 96, 1).apply(loads, 1);
-    const SixColumns by_three =
-        SchwarzPreconditioner(plate().elements, plate().entries, 96, 3).apply(loads, 3);
+    const SixColumns by_one = plate().preconditioner(96, 1).apply(loads, 1);
+    const SixColumns by_three = plate().preconditioner(96, 3).apply(loads, 3);
     EXPECT_EQ(by_one, by_three);
 }
 
