@@ -15,13 +15,11 @@
 namespace samara {
 namespace {
 
-/// The check that files must pass before this process reads them, the files that have passed, and those that
-/// need not.
+/// The check that files must pass before this process reads them, and the files that have passed.
 struct Door {
     std::mutex mutex;
     void (*check)(const InputFile&) = nullptr;
     std::set<FileState> known;
-    std::set<FileState> trusted;
 };
 
 Door& door() {
@@ -34,15 +32,10 @@ const std::filesystem::path& checked(const std::filesystem::path& path) {
     const InputFile file(path);
     const std::lock_guard lock(door().mutex);
     const FileState state = state_of(file);
-    if (door().known.contains(state) || door().trusted.contains(state)) return path;
+    if (door().known.contains(state)) return path;
     door().check(file);
     door().known.insert(state);
     return path;
-}
-
-bool is_trusted(const InputFile& file) {
-    const std::lock_guard lock(door().mutex);
-    return door().trusted.contains(state_of(file));
 }
 
 H5::H5File open_for_reading(const InputFile& input) {
@@ -70,7 +63,7 @@ void Hdf5Reader::set_check(void (*check)(const InputFile& file)) {
 void Hdf5Reader::trust(const std::filesystem::path& path) {
     const InputFile file(path);
     const std::lock_guard lock(door().mutex);
-    door().trusted.insert(state_of(file));
+    door().known.insert(state_of(file));
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
@@ -123,7 +116,7 @@ H5::Group Hdf5Reader::open_group(const std::string& name) const {
 }
 
 void Hdf5Reader::charge(const std::string& name, const H5::DataSet& dataset) const {
-    if (judged_.contains(name) || is_trusted(input_)) return;
+    if (judged_.contains(name)) return;
     const StorageClaim claim = storage_claim(dataset);
     if (!claim.error.empty()) throw error(name, claim.error);
     if (claim.bytes > input_.size() - claimed_) throw error(name, "declares more bytes than the file has");
