@@ -96,6 +96,16 @@ TEST(CompressedMatrix, HoldsOnThinPlatesWhereManyRowsAreAlike) {
     EXPECT_LT(product_error(test::ellipsoid({1.0, 1.0, 1e-4}, 3), 1e-5), 2e-5);
 }
 
+TEST(CompressedMatrix, PartIsTheRowsAndColumnsOfTheTriangles) {
+    const LinearElements elements = linear_elements(test::ellipsoid({1.0, 2.0, 4.0}, 3), leaf_size);
+    const SingleLayerEntries entries(elements.triangles);
+    std::vector<std::size_t> triangles;
+    for (std::size_t t = 3; t < entries.size(); t += 7) triangles.push_back(t);
+    const Eigen::MatrixXd exact = dense_single_layer(entries, 2)(triangles, triangles);
+    const Eigen::MatrixXd part = CompressedMatrix(entries, elements.tree, 1e-5, 2).part(triangles);
+    EXPECT_LT((part - exact).norm(), 2e-5 * exact.norm());
+}
+
 TEST(CompressedMatrix, DoesNotDependOnTheNumberOfThreads) {
     const LinearElements elements = linear_elements(test::icosphere(3), leaf_size);
     const SingleLayerEntries entries(elements.triangles);
