@@ -54,8 +54,10 @@ class LiveSimulation {
         });
     }
 
-    void advance(double time, py::object progress) {
+    void advance(double time, std::optional<double> budget, py::object progress) {
         if (!std::isfinite(time)) throw RaisedInputError("time: give a finite number of seconds");
+        if (budget && !(*budget >= 0.0))
+            throw RaisedInputError("budget: give a number of seconds, 0 or more");
         LongWork work(std::move(progress));
         work([&] {
             const std::lock_guard lock(mutex_);
@@ -66,6 +68,12 @@ class LiveSimulation {
             if (time == begin) {
                 simulation_->advance_to(time);
                 return work.tell(0.0, 0.0);
+            }
+            if (budget) {
+                for (const auto& [index, wrench] : pushes_) simulation_->add_wrench(index, wrench);
+                pushes_.clear();
+                simulation_->advance_within(time, *budget);
+                return work.tell(simulation_->time() - begin, time - begin);
             }
             // In pieces, so that Ctrl-C and progress come through; the motion does not depend on them.
             for (double now = begin; work.tell(now - begin, time - begin);) {
@@ -449,10 +457,13 @@ void bind_simulation(py::module_& module) {
         .def_property_readonly("steps", &LiveSimulation::steps, "Number of steps so far, over all bodies.")
         .def_property_readonly("names", &LiveSimulation::names, "Names of the bodies, in the scene's order.")
         .def("advance", &LiveSimulation::advance, py::arg("time"), py::kw_only(),
-             py::arg("progress") = py::none(),
-             "Advances all bodies to a time (s). `progress`: called with (done, total) in s; it may read the "
-             "simulation but not change it, and an exception in it ends the call. Raises InputError for a "
-             "time that has passed, Error where a body's motion leaves the range of numbers.")
+             py::arg("budget") = py::none(), py::arg("progress") = py::none(),
+             "Advances all bodies to a time (s). `budget`: seconds by the clock on the wall after which no "
+             "further step is taken, for frames that must end; one step at least is. Where `time` of the "
+             "simulation is less then, the next call takes up the rest: the motion is the same. `progress`: "
+             "called with (done, total) in s; it may read the simulation but not change it, and an exception "
+             "in it ends the call. Raises InputError for a time that has passed, Error where a body's motion "
+             "leaves the range of numbers.")
         .def("poses", &LiveSimulation::poses, py::arg("name"),
              "Returns the current poses of all copies of a body in all runs. Raises KeyError for an unknown "
              "name.")

@@ -257,6 +257,14 @@ SAMARA_API double samara_simulation_time(const samara_simulation* simulation);  
 SAMARA_API samara_status samara_advance_to(samara_simulation* simulation, double time, char* error,
                                            size_t error_size);
 
+/* Advances to a time (s) as samara_advance_to does, but takes no further step where that would probably end
+ * later than `seconds` after the call, by the clock on the wall; one step at least. Where
+ * samara_simulation_time is less than `time` then, the next call takes up the rest, or you give it less time:
+ * the motion is the same. Forces and moments act in all steps that are taken. `seconds`: 0 or more, such as
+ * 0.004 of a frame. Since version 11. */
+SAMARA_API samara_status samara_advance_within(samara_simulation* simulation, double time, double seconds,
+                                               char* error, size_t error_size);
+
 /* The place and motion of one body at the simulation's time: 13 doubles without gaps. */
 typedef struct samara_pose {
     double position[3];         /* of the shape's origin, m, world */

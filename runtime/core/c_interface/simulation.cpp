@@ -119,6 +119,19 @@ samara_status samara_advance_to(samara_simulation* simulation, double time, char
     });
 }
 
+samara_status samara_advance_within(samara_simulation* simulation, double time, double seconds, char* error,
+                                    size_t error_size) {
+    return guarded(error, error_size, [&] {
+        require(simulation, "simulation");
+        if (!(seconds >= 0.0)) {
+            throw StatusError(
+                SAMARA_INVALID_ARGUMENT,
+                fmt::format("seconds: {} is not 0 or more; give a frame's share, such as 0.004", seconds));
+        }
+        simulation->core.advance_within(time, seconds);
+    });
+}
+
 samara_status samara_get_poses(const samara_simulation* simulation, size_t first, size_t count,
                                samara_pose* poses, size_t stride, char* error, size_t error_size) {
     return guarded(error, error_size, [&] {

@@ -87,6 +87,9 @@ class BodyGroup {
     void set_pose(std::size_t index, const Pose& pose, double time);
     /// Adds a wrench (N, N m) on a body over the next advance_to().
     void add_wrench(std::size_t index, const Wrench& wrench);
+    /// Keep the wrenches of the next advance_to(), and give them again to one after it.
+    void keep_wrenches() { kept_wrenches_ = wrenches_; }
+    void repeat_wrenches() { wrenches_ = kept_wrenches_; }
     /// Gives a body an impulse (N s, N m s) at a time between the last two steps.
     void add_impulse(std::size_t index, const Wrench& impulse, double time);
     /// Removes a body in its place: it moves no more, until it is placed elsewhere.
@@ -171,6 +174,7 @@ class BodyGroup {
     std::vector<double> before_time_;  ///< s, since the start
     StepReport report_;
     std::vector<Wrench> wrenches_;  ///< over the next advance_to; empty where there are none
+    std::vector<Wrench> kept_wrenches_;
     /// their mean over the calls since the last step; empty where there are none
     std::vector<Wrench> pushed_;
     double pushed_time_ = 0.0;           ///< s: the duration of these calls

@@ -1,6 +1,7 @@
 #include "samara/core/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 
@@ -279,6 +280,24 @@ void Simulation::advance_to(double time) {
         throw;
     }
     members_->time = time;
+}
+
+void Simulation::advance_within(double time, double seconds) {
+    using Clock = std::chrono::steady_clock;
+    require_time(time);
+    const double step = members_->settings.step;
+    const Clock::time_point begin = Clock::now();
+    Clock::time_point last = begin;
+    for (const auto& group : members_->groups) group->keep_wrenches();
+    for (;;) {
+        const auto steps = static_cast<double>(steps_reaching(members_->time, step));
+        advance_to(std::min(time, (steps + 1.0) * step));
+        const Clock::time_point now = Clock::now();
+        const Clock::duration after_next = now - begin + (now - last);
+        if (members_->time >= time || std::chrono::duration<double>(after_next).count() > seconds) return;
+        last = now;
+        for (const auto& group : members_->groups) group->repeat_wrenches();
+    }
 }
 
 void Simulation::advance_together(double time) {

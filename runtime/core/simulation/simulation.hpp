@@ -129,6 +129,12 @@ class Simulation {
     /// 1e10 steps ahead, and where a body's motion leaves the range of numbers: then, and from then on.
     void advance_to(double time);
 
+    /// Advances to a time (s) as advance_to() does, step by step, but takes no further step where that would
+    /// probably end later than `seconds` after the call, by the clock on the wall; one step at least. The
+    /// motion is the same: where time() is less than `time` then, the next call takes up the rest. Wrenches
+    /// act in all steps that are taken. Throws as advance_to() does.
+    void advance_within(double time, double seconds);
+
     /// Throws SimulationError where advance_to() would not accept that time: nothing has changed then.
     void require_time(double time) const;
 

@@ -36,6 +36,17 @@ class LiveFlights(unittest.TestCase):
             numpy.testing.assert_array_equal(poses.position, motion["leaf"].position[:, frame])
             numpy.testing.assert_array_equal(poses.velocity, motion["leaf"].velocity[:, frame])
 
+    def test_a_budget_ends_a_call_after_a_step_and_the_next_takes_up_the_rest(self):
+        other = samara.Simulation(self.scene, runs=2)
+        other.advance(0.3)
+        self.simulation.advance(0.3, budget=0.0)
+        self.assertTrue(0 < self.simulation.time < 0.3)
+        self.simulation.advance(0.3, budget=1e3)
+        self.assertEqual(self.simulation.time, 0.3)
+        numpy.testing.assert_array_equal(self.simulation.poses("leaf").position, other.poses("leaf").position)
+        with self.assertRaisesRegex(samara.InputError, "budget"):
+            self.simulation.advance(0.4, budget=-1.0)
+
     def test_a_state_brings_it_back(self):
         self.simulation.advance(0.2)
         state = self.simulation.state()

@@ -48,6 +48,44 @@ SimulationError::Reason error_of(const std::function<void()>& work) {
     return {};
 }
 
+/// Advances to a time within budgets, the first of which are of no time: one step a call. Returns the calls.
+int advance_by_budgets(Simulation& simulation, double time) {
+    int calls = 0;
+    for (; simulation.time() < time; ++calls) simulation.advance_within(time, calls < 20 ? 0.0 : 1e3);
+    return calls;
+}
+
+TEST(Simulation, ABudgetLeavesStepsButNeverChangesThem) {
+    for (const bool collide : {false, true}) {
+        SimulationSettings settings;
+        settings.bodies_collide = collide;
+        Simulation whole(settings);
+        Simulation parts(settings);
+        for (Simulation* simulation : {&whole, &parts}) {
+            simulation->add(rubber(), physics_of(1200.0), {.count = 3, .spread_position = {0.2, 0.2, 0.2}},
+                            "a");
+            simulation->add_wrench(1, {{0.0, 0.01, 0.0}, {1e-5, 0.0, 0.0}});
+        }
+        whole.advance_to(0.1);
+        parts.advance_within(0.1, 0.0);
+        EXPECT_DOUBLE_EQ(parts.time(), settings.step);
+        parts.add_wrench(1, {{0.0, 0.01, 0.0}, {1e-5, 0.0, 0.0}});
+        parts.advance_within(0.1, 1e3);
+        EXPECT_EQ(parts.time(), 0.1);
+        whole.advance_to(0.2);
+        EXPECT_EQ(advance_by_budgets(parts, 0.2), 21);
+        whole.advance_to(0.2123);
+        parts.advance_within(0.2123, 0.0);  // between two steps: of the seven that are left one is taken
+        EXPECT_LT(parts.time(), 0.2123);
+        advance_by_budgets(parts, 0.2123);
+        EXPECT_EQ(parts.time(), 0.2123);
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            EXPECT_EQ(parts.pose(i).position, whole.pose(i).position) << i << " " << collide;
+            EXPECT_EQ(parts.pose(i).velocity, whole.pose(i).velocity) << i << " " << collide;
+        }
+    }
+}
+
 TEST(Simulation, NumbersTheCopiesOfARunTogether) {
     SimulationSettings both;
     both.runs = 2;
