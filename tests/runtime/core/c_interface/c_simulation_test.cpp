@@ -99,13 +99,13 @@ TEST(CSimulation, ABudgetOfTimeEndsACallAfterAStepAndTheNextTakesUpTheRest) {
     const BodyOnDisk body;
     const SimulationPointer whole = simulation_of(body, rubber_group());
     const SimulationPointer parts = simulation_of(body, rubber_group());
+    Text error;
     EXPECT_EQ(CALL(samara_advance_within, parts.get(), 0.5, 0.0), SAMARA_OK);
     EXPECT_GT(samara_simulation_time(parts.get()), 0.0);
     EXPECT_LT(samara_simulation_time(parts.get()), 0.5);
     EXPECT_EQ(CALL(samara_advance_within, parts.get(), 0.5, 1e3), SAMARA_OK);
     EXPECT_EQ(samara_simulation_time(parts.get()), 0.5);
     EXPECT_TRUE(same_bytes(poses_at(parts, 0.5), poses_at(whole, 0.5)));
-    Text error;
     EXPECT_EQ(CALL(samara_advance_within, parts.get(), 0.6, -1.0), SAMARA_INVALID_ARGUMENT);
     EXPECT_THAT(error.text(), HasSubstr("seconds: -1"));
     EXPECT_EQ(CALL(samara_advance_within, parts.get(), 0.4, 1.0), SAMARA_TIME_PASSED);
