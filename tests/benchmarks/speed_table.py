@@ -15,7 +15,7 @@ import tempfile
 import time
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-BENCHMARKS = "^(step_with_tables_and_noise|batch_on_one_core/4096/real_time|slide_on_ground|slide_on_sheet/20|mujoco_step|bullet_.*)$"
+BENCHMARKS = "^(step_with_tables_and_noise|(single_)?batch_on_one_core/4096/real_time|slide_on_ground|slide_on_sheet/20|mujoco_step|bullet_.*)$"
 
 ONE_BODY = """[scene]
 duration = {duration}
@@ -106,8 +106,10 @@ def step_rows(bench: Bench, times: dict[str, float]) -> None:
 
     step = times["step_with_tables_and_noise"]
     bench.row("a step with tables and noise", f"{step / 1e3:.3g} us", *beside("MuJoCo, implicit", "mujoco_step", step, 1e3, "us"), "0.25 us")
-    crowd = times["batch_on_one_core/4096/real_time"] / (8 * 4096)
-    bench.row("a step in a crowd, a core", f"{1e3 / crowd:.3g} million/s", f"alone: {1e3 / step:.3g} million/s", crowd / step, "50 million/s")
+    for title, kind in (("", ""), (", single precision", "single_")):
+        crowd = times[kind + "batch_on_one_core/4096/real_time"] / (8 * 4096)
+        bench.row(f"a step in a crowd{title}, a core", f"{1e3 / crowd:.3g} million/s", f"alone: {1e3 / step:.3g} million/s", crowd / step,
+                  "50 million/s")
     for name, title, peer in (("slide_on_ground", "a body sliding on the ground", "bullet_slide_on_sheet/1"),
                               ("slide_on_sheet/20", "the same on 800 triangles", "bullet_slide_on_sheet/20")):
         bench.row(title + ", a step", f"{times[name] / 1e3:.3g} us", *beside("Bullet", peer, times[name], 1e3, "us"), "3 us")
