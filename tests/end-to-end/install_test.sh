@@ -23,7 +23,7 @@ cmake -S "$source_folder/tests/end-to-end/consumer" -B "$work/consumer" -G Ninja
   -DEXAMPLES="$source_folder/docs/examples"
 cmake --build "$work/consumer"
 "$work/consumer/fall-cpp" "$source_folder/runtime/bodies/leaf.body.h5" | grep -q '3000 steps'
-if [ "$(find "$work/installed/include" -name '*.hpp' | wc -l)" -gt 49 ] || [ -e "$work/installed/include/internal" ]; then
+if [ "$(find "$work/installed/include" -name '*.hpp' | wc -l)" -gt 50 ] || [ -e "$work/installed/include/internal" ]; then
   echo "more headers are installed than are public" >&2
   exit 1
 fi
