@@ -17,38 +17,15 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BENCHMARKS = "^(step_with_tables_and_noise|(single_)?batch_on_one_core/4096/real_time|slide_on_ground|slide_on_sheet/20|mujoco_step|bullet_.*)$"
 
-ONE_BODY = """[scene]
-duration = {duration}
-[fluid]
-preset = "air"
-[[body]]
-name = "leaf"
-shape = "samara:leaf"
-position = [0, 0, 50]
-"""
-FALL = """[scene]
-duration = 4.0
-[fluid]
-preset = "water"
-[[body]]
-name = "rubber"
-shape = "samara:ellipsoid"
-density = 1200
-orientation = [0.9, 0.3, 0.2, 0.1]
-"""
-CROWD = """[scene]
-duration = 0.5
-step = 0.01666666666666
-frame_rate = 60
-[fluid]
-preset = "air"
-[[body]]
-name = "leaf"
-shape = "samara:leaf"
-position = [0, 0, 50]
-count = 100000
-spread = { position = [50, 50, 10], angle = 3.1 }
-"""
+
+def ready(settings: str, fluid: str, body: str, rest: str) -> str:
+    """A scene of a ready-baked body."""
+    return f'[scene]\n{settings}\n[fluid]\npreset = "{fluid}"\n[[body]]\nname = "{body}"\nshape = "samara:{body}"\n{rest}\n'
+
+
+FALL = ready("duration = 4.0", "water", "ellipsoid", "density = 1200\norientation = [0.9, 0.3, 0.2, 0.1]")
+CROWD = ready("duration = 0.5\nstep = 0.01666666666666\nframe_rate = 60", "air", "leaf",
+              "position = [0, 0, 50]\ncount = 100000\nspread = { position = [50, 50, 10], angle = 3.1 }")
 CROWD_FRAMES = 30
 # Of the shapes that come with samara, those with the most edges and the thinnest.
 SHAPES = ("sheet", "samara", "maple-leaf", "airplane")
@@ -121,7 +98,7 @@ def step_rows(bench: Bench, times: dict[str, float]) -> None:
 def process_rows(bench: Bench) -> None:
     start, _ = bench.cpu("samara", "--version", repeats=10)
     for duration, reach in (("1.0", "15 ms"), ("4.0", "")):
-        scene = bench.scene("one.toml", ONE_BODY.format(duration=duration))
+        scene = bench.scene("one.toml", ready(f"duration = {duration}", "air", "leaf", "position = [0, 0, 50]"))
         run, _ = bench.cpu("samara", "simulate", scene, "-o", "one.h5", "--threads", "1", repeats=10)
         bench.row(f"samara simulate, {float(duration):.0f} s of a ready-baked leaf, from start to end", f"{1e3 * run:.3g} ms",
                   f"samara --version: {1e3 * start:.3g} ms", run / start, reach)

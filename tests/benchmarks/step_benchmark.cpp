@@ -186,8 +186,20 @@ void million_leaves(benchmark::State& state) {
 }
 
 BENCHMARK(million_leaves)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(batch_on_one_core)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(single_batch_on_one_core)->Arg(4096)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(batch_on_one_core)
+    ->Arg(1)
+    ->Arg(8)
+    ->Arg(4096)
+    ->Arg(1'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(single_batch_on_one_core)
+    ->Arg(1)
+    ->Arg(8)
+    ->Arg(4096)
+    ->Arg(1'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(batch_on_all_cores)->Arg(1'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(in_no_wind);
 BENCHMARK(in_no_wind_of_many_sizes);

@@ -1,44 +1,15 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <vector>
+#include <utility>
 
-#include "samara/core/collision/contact_set.hpp"
-#include "samara/core/dynamics/immersed_body.hpp"
-#include "samara/core/physics/contact_record.hpp"
+#include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
-
-/// The approach of a body to what it may touch.
-struct Approach {
-    double margin = 0.0;     ///< m: points with a larger gap are ignored
-    double touching = 0.0;   ///< m: gaps up to this count as none
-    double time_step = 0.0;  ///< s: the time in which a point may close the rest of its gap, and no more
-    /// An additional velocity (omega, v) in body axes, relative to the ground. Where there is one, moving
-    /// obstacles move under it, and impulses change a displacement over which they stand still.
-    std::optional<Vector6d> drift = {};
-};
-
-/// Returns a velocity (omega, v; body axes, relative to the ground) after inelastic impulses with Coulomb
-/// friction and rolling resistance. They act where a near point would otherwise penetrate, found one after
-/// the other, at `most_contacts` points at most, and never add energy but the work of moving obstacles: w K w
-/// / 2 does not grow otherwise. `record` (null: not asked for) receives the impulses, in body axes and from
-/// the centre of mass, without a time. Never throws or allocates.
-///
-/// Projected Gauss-Seidel on the impulses: Erleben, Velocity-based shock propagation for multibody dynamics
-/// animation, ACM Transactions on Graphics 26(2), 2007, section 3; the inertia here is K, the fluid's
-/// included. As one body has six velocities only, all sticking points are solved for together after each
-/// sweep.
-Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
-                        const Vector6d& velocity, ContactRecord* record = nullptr) noexcept;
 
 /// The lever of the load at a contact point, relative to the bounding radius: it stops a ball that rolls and
 /// a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm
 /// (docs/explanation/integrator.md#ground).
 inline constexpr double rolling_resistance = 0.005;
-inline constexpr std::size_t most_contacts = 16;
 
 /// The impulses at one contact point: forces along two tangents and the normal, and moments against rolling
 /// and spinning about the same axes. One body receives them, and what it touches the opposite.
@@ -72,63 +43,29 @@ struct ContactImpulses {
     [[nodiscard]] double work() const noexcept;
 };
 
-/// A body among others that may touch, in world axes about its centre of mass.
-struct ContactBody {
-    Vector6d velocity;         ///< (omega, v), relative to the ground (rad/s, m/s)
-    Matrix6d inverse_inertia;  ///< K^-1
-    double radius;             ///< m: of the sphere that holds it
-};
+/// Stops rates where impulses within `bound` can, else slows them: returns the new size, and whether the
+/// rates stop. `inverse`: of the mobility, whose trace is given. Never gains energy.
+template <int N>
+std::pair<Eigen::Matrix<double, N, 1>, bool> held(const Eigen::Matrix<double, N, 1>& size,
+                                                  const Eigen::Matrix<double, N, 1>& rates,
+                                                  const Eigen::Matrix<double, N, N>& inverse, double trace,
+                                                  double bound) {
+    Eigen::Matrix<double, N, 1> after = size - inverse * rates;
+    if (after.norm() <= bound) return {after, true};
+    // A step of projected gradients, no longer than the mobility's trace allows, so that it never gains
+    // energy.
+    after = size - rates / trace;
+    const double length = after.norm();
+    if (length > bound) after *= bound / length;
+    return {after, false};
+}
 
-/// A point at which two bodies, or a body and the ground or an obstacle, may touch within a step.
-struct ContactBetween {
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+/// Returns the share of the impulses that adds no energy. Their work (J) on the velocities before, and their
+/// square by the inverse inertia (J) are given. Friction that was bounded by a normal impulse which later
+/// fell may add a little.
+double passive_share(double gain, double square) noexcept;
 
-    std::size_t first;                             ///< number of the body
-    std::size_t second = none;                     ///< that of the other; none: ground or obstacle
-    Vector3d first_arm;                            ///< m, from the first's centre of mass
-    Vector3d second_arm = Vector3d::Zero();        ///< m, from the second's
-    Vector3d normal;                               ///< of length one: from the second to the first
-    double allowed_speed;                          ///< m/s, not negative: the closing speed that is allowed
-    double friction;                               ///< Coulomb's coefficient
-    Vector3d surface_velocity = Vector3d::Zero();  ///< m/s: of ground or obstacle
-    Vector3d surface_angular_velocity = Vector3d::Zero();  ///< rad/s
-    int obstacle = -1;                    ///< the number of the touched obstacle; -1: level ground
-    Vector3d impulse = Vector3d::Zero();  ///< N s: on the first
-};
-
-/// Solves for the impulses of after_impulses() on bodies that touch each other, ground and obstacles, all
-/// together. Keeps its memory from call to call.
-class ContactSolver {
-  public:
-    /// Changes the bodies' velocities so that no point closes faster than is allowed, and records the
-    /// impulses. They never add energy but the work of moving obstacles: the sum of w K w / 2 does not grow
-    /// otherwise.
-    ///
-    /// Projected Gauss-Seidel, forwards and backwards, sped up by nonsmooth nonlinear conjugate gradients:
-    /// Silcowitz-Hansen, Niebe and Erleben, A nonsmooth nonlinear conjugate gradient method for interactive
-    /// contact force problems, The Visual Computer 26 (2010). `known`: the number of points that the call
-    /// before had too, with bodies of the same inertia; their impulses are the initial guess.
-    void solve(std::span<ContactBody> bodies, std::span<ContactBetween> points, std::size_t known = 0);
-
-  private:
-    struct Row : ContactImpulses {
-        Matrix3d spin_by_push;       ///< rates about the axes of unit impulses along them
-        Vector6d before, direction;  ///< of the sweep, and of the conjugate gradients
-    };
-
-    void prepare(std::span<ContactBody> bodies, std::span<const ContactBetween> points, std::size_t known);
-    void sweep(std::span<ContactBody> bodies, std::span<const ContactBetween> points,
-               bool backwards) noexcept;
-    static void relax(std::span<ContactBody> bodies, const ContactBetween& point, Row& row) noexcept;
-    void accelerate(std::span<ContactBody> bodies, std::span<const ContactBetween> points) noexcept;
-    [[nodiscard]] bool has_converged(std::span<const ContactBody> bodies) const noexcept;
-    void keep_passive(std::span<ContactBody> bodies, std::span<ContactBetween> points);
-
-    std::vector<Row> rows_;
-    std::vector<Vector6d> start_;    ///< the bodies' velocities before
-    std::vector<Vector6d> before_;   ///< those before the sweep
-    std::vector<Vector6d> impulse_;  ///< on each body
-    double slope_ = 0.0;             ///< of the conjugate gradients: squares of the last sweep's changes
-};
+/// Returns two tangents and the normal, as rows.
+Matrix3d axes_about(const Vector3d& normal) noexcept;
 
 }  // namespace samara

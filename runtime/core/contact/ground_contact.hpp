@@ -1,7 +1,7 @@
 #pragma once
 
 #include "samara/core/collision/obstacle_contact.hpp"
-#include "samara/core/contact/contact_impulses.hpp"
+#include "samara/core/contact/body_impulses.hpp"
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/dynamics/surroundings.hpp"
 #include "samara/core/kernel/body_state.hpp"
@@ -46,7 +46,7 @@ inline constexpr double resting_energy = 1e-6;
 /// `before`, for contact with the ground and with obstacles: inelastic, with friction.
 ///
 /// A body below the ground is lifted out of it, by translation alone, and kept from passing through obstacles
-/// (keep_out). Impulses (contact_impulses.hpp) then leave no contact point with a velocity that takes it into
+/// (keep_out). Impulses (body_impulses.hpp) then leave no contact point with a velocity that takes it into
 /// them within the next step. They never add energy but by moving obstacles: with w the velocity relative to
 /// the ground, w K w / 2 does not grow otherwise. A body is at rest where its kinetic energy is below
 /// resting_energy and impulses of standing surfaces hold it, where it stood before the step, against the

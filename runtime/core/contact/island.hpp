@@ -9,7 +9,7 @@
 #include "samara/core/collision/free_flight.hpp"
 #include "samara/core/collision/hull_pair.hpp"
 #include "samara/core/collision/obstacle_contact.hpp"
-#include "samara/core/contact/contact_impulses.hpp"
+#include "samara/core/contact/joint_impulses.hpp"
 #include "samara/core/dynamics/immersed_body.hpp"
 #include "samara/core/physics/contact_record.hpp"
 
@@ -63,7 +63,7 @@ inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation
 /// by more than half its radius or would fall from a standstill by more than a two-hundredth of it. Where two
 /// fast bodies from afar collide, the substep ends, and their impulses act there and then: so do the first
 /// collisions of a step, the fewer the more bodies there are. In each substep the bodies get their share of
-/// the change in their steps alone, and joint impulses (contact_impulses.hpp), at the points where they may
+/// the change in their steps alone, and joint impulses (joint_impulses.hpp), at the points where they may
 /// touch within the substep, allow each gap to close and no more; with the resulting velocities the bodies
 /// move freely (free_flight.hpp). This is Moreau's stepping: whatever the step, contact takes energy and
 /// gives none. The impulses on two bodies act at one place of the world, so that momentum and angular
