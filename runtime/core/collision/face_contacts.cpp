@@ -18,17 +18,6 @@ constexpr double same = 1e-9;   // distance within which two points are one
 // The cosine of the angle by which a face beyond an edge may rise over the plane that the edge holds.
 constexpr double beyond_plane = 1e-3;
 
-/// Returns whether the projection of a point along the triangle's normal lies within it, or within `reach`
-/// (m).
-bool is_over(const ObstacleTriangle& triangle, const Vector3d& point, double reach) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vector3d side = triangle.corners[(i + 1) % 3] - triangle.corners[i];
-        const double area = triangle.normal.dot(side.cross(point - triangle.corners[i]));
-        if (area < -reach * side.norm()) return false;
-    }
-    return true;
-}
-
 /// Returns which corners of the triangle are nearest to a body along a normal.
 std::array<bool, 3> highest_corners(const ObstacleTriangle& triangle, const Vector3d& normal, double plane,
                                     double tolerance) {
@@ -211,6 +200,8 @@ FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity,
         next_.orientation = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()) * hull.orientation;
     }
     next_.position += offset;
+    motion_ = skew(rotation);
+    offset_ = offset;
 }
 
 bool FaceContacts::passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept {
@@ -240,8 +231,9 @@ void FaceContacts::add_corners(const ObstacleTriangle& triangle, const Vector3d&
         const Vector3d velocity =
             hull_.orientation * (velocity_.tail<3>() + velocity_.head<3>().cross(point)) - surface_.at(place);
         const double closing = -normal.dot(velocity);
-        const double until = gap > 0.0 && closing > 0.0 ? std::min(gap / closing, time_step_) : 0.0;
-        if (!is_over(triangle, place + until * velocity, seam * hull_.radius())) return;
+        const double until =
+            gap > level * hull_.radius() && closing > 0.0 ? std::min(gap / closing, time_step_) : 0.0;
+        if (!triangle.is_under(place + until * velocity, seam * hull_.radius())) return;
         add_point(point, normal, gap);
     };
     for (const Vector3d& corner : hull_.points->corners) look_at(corner);
@@ -282,20 +274,44 @@ bool FaceContacts::add_crossings(const ObstacleTriangle& triangle, const Vector3
     return found;
 }
 
+bool FaceContacts::may_touch_inside(const ObstacleTriangle& triangle) const noexcept {
+    // A point at x moves to x + stretch (x - centre of mass) + offset.
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d side = triangle.corners[(i + 1) % 3] - triangle.corners[i];
+        const Vector3d inwards = triangle.normal.cross(side).normalized();
+        const double limit = inwards.dot(triangle.corners[i] - hull_.position) - seam * hull_.radius();
+        const auto farthest = [&](const Vector3d& direction) {
+            return direction.dot(hull_.orientation *
+                                 farthest_point(*hull_.points, hull_.orientation.transpose() * direction));
+        };
+        if (farthest(inwards) >= limit) continue;
+        if (farthest(inwards + motion_.transpose() * inwards) + inwards.dot(offset_) < limit) return false;
+    }
+    return true;
+}
+
+void FaceContacts::add_inside(const ObstacleTriangle& triangle) noexcept {
+    if (!may_touch_inside(triangle)) return;
+    const Separation part = plane_of_face(hull_, triangle);
+    if (part.gap > margin_ || passes_by(triangle, part)) return;
+    add_corners(triangle, part.normal, triangle.reach(part.normal));
+}
+
 void FaceContacts::add(const ObstacleTriangle& triangle) noexcept {
+    const auto& outside = triangle.stands_out;
+    if (std::none_of(outside.begin(), outside.end(), [](bool out) { return out; }))
+        return add_inside(triangle);
     const Separation part = separation(hull_, triangle, margin_);
-    if (!(part.gap <= margin_)) return;
-    if (passes_by(triangle, part)) return;
+    if (part.gap > margin_ || passes_by(triangle, part)) return;
     const double plane = triangle.reach(part.normal);
     const std::array<bool, 3> highest =
         highest_corners(triangle, part.normal, plane, 0.1 * level * hull_.radius());
-    const bool is_face = part.of_face || (highest[0] && highest[1] && highest[2]);
-    if (is_face) {
+    if (part.of_face || (highest[0] && highest[1] && highest[2])) {
         add_corners(triangle, part.normal, plane);
         add_crossings(triangle, part.normal, plane);
         return;
     }
-    if (!stands_free(triangle, highest, part.normal)) return;
+    if (!stands_free(triangle, highest, part.normal)) return add_inside(triangle);
     if (add_crossings(triangle, part.normal, plane)) return;
     const Vector3d of_hull = part.on_triangle + part.gap * part.normal;
     add_point(hull_.orientation.transpose() * (of_hull - hull_.position), part.normal, part.gap);

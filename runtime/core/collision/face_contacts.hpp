@@ -31,13 +31,19 @@ class FaceContacts {
     void add(const ObstacleTriangle& triangle) noexcept;
 
   private:
+    /// Returns whether any point may come to lie over a face in the step.
+    [[nodiscard]] bool may_touch_inside(const ObstacleTriangle& triangle) const noexcept;
     [[nodiscard]] bool passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept;
     void add_point(const Vector3d& of_body, const Vector3d& normal, double gap) noexcept;
     void add_corners(const ObstacleTriangle& triangle, const Vector3d& normal, double plane) noexcept;
+    /// Adds the corners, and the lowest round point, that come to lie over a face, however it may be reached.
+    void add_inside(const ObstacleTriangle& triangle) noexcept;
     bool add_crossings(const ObstacleTriangle& triangle, const Vector3d& normal, double plane) noexcept;
 
     PlacedHull hull_;
     PlacedHull next_;  ///< the place after the step at the present velocity, as the obstacle sees it
+    Matrix3d motion_;  ///< of a point in the step, from its place relative to the centre of mass
+    Vector3d offset_;  ///< m: of the centre of mass in the step
     Vector6d velocity_;
     ContactSurfaceVelocity surface_;
     double time_step_, margin_, friction_;

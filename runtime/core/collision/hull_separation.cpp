@@ -12,6 +12,7 @@ namespace {
 constexpr double triangle_drawn_in = 0.03;
 // relative to the radius: the gap from which another plane is preferred to the face's
 constexpr double better = 1e-6;
+constexpr double none = 1e-9;  // relative to the radius: overlap that counts as none
 
 const Vector3d& farthest_corner(const ObstacleTriangle& triangle, const Vector3d& direction) {
     const auto& [a, b, c] = triangle.corners;
@@ -36,15 +37,33 @@ bool nearest_to_triangle(const PlacedHull& hull, const ObstacleTriangle& triangl
     return nearest_separation(of_hull, of_triangle, simplex, separation).has_value();
 }
 
+/// Returns whether a corner of the hull lies over or under the triangle and no farther from it than the whole
+/// hull: then no plane has a wider gap than the triangle's own.
+bool any_lowest_corner_is_over(const PlacedHull& hull, const ObstacleTriangle& triangle,
+                               const Separation& face) {
+    const Vector3d up = hull.orientation.transpose() * face.normal;
+    const double lowest =
+        face.normal.dot(triangle.corners[0] - hull.position) + face.gap + none * hull.radius();
+    const auto& corners = hull.points->corners;
+    return std::any_of(corners.begin(), corners.end(), [&](const Vector3d& corner) {
+        return up.dot(corner) <= lowest && triangle.is_under(hull.position + hull.orientation * corner, 0.0);
+    });
+}
+
 }  // namespace
 
-Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, double enough) noexcept {
+Separation plane_of_face(const PlacedHull& hull, const ObstacleTriangle& triangle) noexcept {
     const double plane = triangle.normal.dot(triangle.corners[0]);
     const double above = hull.lowest(triangle.normal) - plane;
     const double below = hull.lowest(-triangle.normal) + plane;
-    Separation best{above >= below ? triangle.normal : Vector3d(-triangle.normal), std::max(above, below),
-                    triangle.corners[0], true};
+    return {above >= below ? triangle.normal : Vector3d(-triangle.normal), std::max(above, below),
+            triangle.corners[0], true};
+}
+
+Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, double enough) noexcept {
+    Separation best = plane_of_face(hull, triangle);
     if (best.gap > enough) return best;
+    if (best.gap >= -none * hull.radius() && any_lowest_corner_is_over(hull, triangle, best)) return best;
     Simplex simplex;
     Vector3d separation;
     if (!nearest_to_triangle(hull, triangle, simplex, separation)) return best;

@@ -49,6 +49,10 @@ struct Separation {
 /// the nearest points of simplices as in Ericson, Real-Time Collision Detection (2005), 5.1.
 Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, double enough) noexcept;
 
+/// Returns the triangle's own plane, with the gap on the side of it where the hull reaches least to the
+/// other.
+Separation plane_of_face(const PlacedHull& hull, const ObstacleTriangle& triangle) noexcept;
+
 /// Returns the gap (m) between hull and triangle along a unit vector.
 inline double gap_along(const PlacedHull& hull, const ObstacleTriangle& triangle,
                         const Vector3d& normal) noexcept {

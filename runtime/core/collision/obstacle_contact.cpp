@@ -115,10 +115,14 @@ double free_share(const Passage& passage, const ObstacleTriangle& triangle, doub
 bool pass_by(Passage& passage, const ObstacleTriangle& triangle, double radius, int round, BodyPlace& after) {
     const double allowed = slack * radius;
     const PlacedHull begin = passage.hull(0.0);
+    const PlacedHull end = passage.hull(1.0);
+    const auto stays = [&](const Vector3d& normal) {
+        return gap_along(begin, triangle, normal) >= -allowed && gap_along(end, triangle, normal) >= -allowed;
+    };
+    if (stays(triangle.normal) || stays(-triangle.normal)) return false;
     const Separation before = separation(begin, triangle, passage.length());
     if (before.gap > passage.length()) return false;
     if (before.gap < -allowed) return false;  // it began inside, and is moved out later
-    const PlacedHull end = passage.hull(1.0);
     const double gap = gap_along(end, triangle, before.normal);
     if (gap >= -allowed) return false;
     const Separation later = separation(end, triangle, std::numeric_limits<double>::infinity());

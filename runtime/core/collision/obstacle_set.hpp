@@ -33,6 +33,16 @@ struct ObstacleTriangle {
     [[nodiscard]] double reach(const Vector3d& direction) const noexcept {
         return std::max({corners[0].dot(direction), corners[1].dot(direction), corners[2].dot(direction)});
     }
+    /// Returns whether the projection of a point along the normal lies within it, or beside it within
+    /// `margin` (m).
+    [[nodiscard]] bool is_under(const Vector3d& point, double margin) const noexcept {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vector3d side = corners[(i + 1) % 3] - corners[i];
+            const double area = normal.dot(side.cross(point - corners[i]));
+            if (area < -margin * side.norm()) return false;
+        }
+        return true;
+    }
 };
 
 /// One obstacle with a tree of boxes over its faces.

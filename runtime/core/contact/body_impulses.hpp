@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -21,17 +22,40 @@ struct Approach {
     std::optional<Vector6d> drift = {};
 };
 
+/// An impulse (N s) and a moment of one (N m s) at a near point of a body.
+struct FoundImpulse {
+    Vector3d point;  ///< the near point's
+    int obstacle;    ///< the near point's
+    Vector6d size;   ///< along two tangents and the normal, and about them
+};
+
+/// The impulses that were found for a body: a good guess for those of the same points a moment later.
+struct FoundImpulses {
+    std::array<FoundImpulse, most_contacts> all;
+    std::size_t count = 0;
+
+    /// Multiplies all impulses.
+    void scale(double factor) noexcept {
+        for (std::size_t i = 0; i < count; ++i) all[i].size *= factor;
+    }
+    void add(const FoundImpulse& one) noexcept { all[count++] = one; }
+    [[nodiscard]] const FoundImpulse* begin() const noexcept { return all.data(); }
+    [[nodiscard]] const FoundImpulse* end() const noexcept { return all.data() + count; }
+};
+
 /// Returns a velocity (omega, v; body axes, relative to the ground) after inelastic impulses with Coulomb
 /// friction and rolling resistance. They act where a near point would otherwise penetrate, found one after
 /// the other, at `most_contacts` points at most, and never add energy but the work of moving obstacles: w K w
-/// / 2 does not grow otherwise. `record` (null: not asked for) receives the impulses, in body axes and from
-/// the centre of mass, without a time. Never throws or allocates.
+/// / 2 does not grow otherwise. `found` (null: none) has a guess, from which the search begins, and receives
+/// the impulses. `record` (null: not asked for) receives them in body axes and from the centre of mass,
+/// without a time. Never throws or allocates.
 ///
 /// Projected Gauss-Seidel on the impulses: Erleben, Velocity-based shock propagation for multibody dynamics
 /// animation, ACM Transactions on Graphics 26(2), 2007, section 3; the inertia here is K, the fluid's
 /// included. As one body has six velocities only, all sticking points are solved for together after each
-/// sweep.
+/// sweep, and sliding ones are extrapolated from two.
 Vector6d after_impulses(const TouchingBody& body, const ContactSet& near, const Approach& approach,
-                        const Vector6d& velocity, ContactRecord* record = nullptr) noexcept;
+                        const Vector6d& velocity, FoundImpulses* found = nullptr,
+                        ContactRecord* record = nullptr) noexcept;
 
 }  // namespace samara

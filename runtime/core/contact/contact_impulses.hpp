@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "samara/core/base/linear_algebra.hpp"
 
 namespace samara {
@@ -10,6 +8,12 @@ namespace samara {
 /// a body that rocks or spins. Chosen, not measured: 0.1 mm for a body of 2 cm
 /// (docs/explanation/integrator.md#ground).
 inline constexpr double rolling_resistance = 0.005;
+
+/// Tells what the impulses at a point do.
+struct Held {
+    bool touches = false;             ///< whether there are or were any
+    bool slip = false, spin = false;  ///< which of them cause the target rates, within their bounds
+};
 
 /// The impulses at one contact point: forces along two tangents and the normal, and moments against rolling
 /// and spinning about the same axes. One body receives them, and what it touches the opposite.
@@ -23,6 +27,7 @@ struct ContactImpulses {
     Matrix3d axes;  ///< two tangents and the normal, as rows
     Side first, second;
     Matrix3d push_mobility, spin_mobility;  ///< rates along and about the axes of unit impulses
+    Matrix3d spin_by_push;                  ///< rates about the axes of unit impulses along them
     Eigen::Matrix2d slip_inverse;           ///< of the mobility along the tangents
     Matrix3d spin_inverse;
     Vector3d target, target_spin;  ///< target rates of the impulses
@@ -37,28 +42,15 @@ struct ContactImpulses {
                const Vector3d& surface_angular_velocity, double friction_coefficient, double radius) noexcept;
     /// Computes the inverse mobilities. Call it once the mobilities are set.
     void invert() noexcept;
+    /// Updates the impulses while those at all other points stay. `slide` and `turn`: velocity (m/s) and
+    /// angular velocity (rad/s) of the first body at the point, relative to the second or to unmoved
+    /// surfaces. `change` receives the change of the impulses where they touch.
+    Held relax(const Vector3d& slide, const Vector3d& turn, Vector6d& change) noexcept;
     /// Returns the impulse (N s) on the first body.
     [[nodiscard]] Vector3d push() const noexcept { return axes.transpose() * size.head<3>(); }
     /// Returns the work (J) of the surface.
     [[nodiscard]] double work() const noexcept;
 };
-
-/// Stops rates where impulses within `bound` can, else slows them: returns the new size, and whether the
-/// rates stop. `inverse`: of the mobility, whose trace is given. Never gains energy.
-template <int N>
-std::pair<Eigen::Matrix<double, N, 1>, bool> held(const Eigen::Matrix<double, N, 1>& size,
-                                                  const Eigen::Matrix<double, N, 1>& rates,
-                                                  const Eigen::Matrix<double, N, N>& inverse, double trace,
-                                                  double bound) {
-    Eigen::Matrix<double, N, 1> after = size - inverse * rates;
-    if (after.norm() <= bound) return {after, true};
-    // A step of projected gradients, no longer than the mobility's trace allows, so that it never gains
-    // energy.
-    after = size - rates / trace;
-    const double length = after.norm();
-    if (length > bound) after *= bound / length;
-    return {after, false};
-}
 
 /// Returns the share of the impulses that adds no energy. Their work (J) on the velocities before, and their
 /// square by the inverse inertia (J) are given. Friction that was bounded by a normal impulse which later

@@ -44,11 +44,13 @@ bool rests(const TouchingBody& body, const ContactSet& stood, double time_step, 
 }
 
 /// Removes the displacement that the load caused in a step as far as contacts opposed it. Otherwise a lying
-/// body would rotate a little in each step, and never come to rest.
+/// body would rotate a little in each step, and never come to rest. `found` receives the impulses that would
+/// oppose all of the load.
 void hold_against_load(const TouchingBody& body, const ContactSet& stood, const Approach& approach,
-                       const Vector6d& change, BodyState& state) noexcept {
+                       const Vector6d& change, FoundImpulses& found, BodyState& state) noexcept {
     const Vector6d moved = 0.5 * change;
-    const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved) - moved);
+    const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved, &found) - moved);
+    found.scale(2.0);
     if (held.isZero(0.0)) return;
     state.position += stood.to_world() * held.tail<3>();
     const Vector3d half_rotation = 0.5 * held.head<3>();
@@ -132,7 +134,8 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
     }
     const Approach approach{
         .margin = reached, .touching = touching * radius, .time_step = time_step, .drift = velocity_before};
-    hold_against_load(body, stood, approach, change, state);
+    FoundImpulses found;
+    hold_against_load(body, stood, approach, change, found, state);
     if (is_at_obstacle) keep_out_of_obstacles(body, ground, time_step, before, state);
     velocity = relative_to(ground.velocity, state);
     const Matrix3d to_world = state.orientation.toRotationMatrix();
@@ -148,7 +151,7 @@ void touch_ground(const TouchingBody& body, const Ground& ground, double time_st
     const Approach next{.margin = reached, .touching = touching * radius, .time_step = time_step};
     ContactRecord now;
     state.velocity +=
-        after_impulses(body, near, next, velocity, record == nullptr ? nullptr : &now) - velocity;
+        after_impulses(body, near, next, velocity, &found, record == nullptr ? nullptr : &now) - velocity;
     if (record != nullptr && now.strongest > 0.0) record->add(in_world(now, to_world, ground, state));
 }
 

@@ -410,7 +410,7 @@ void IslandStep::separate_all(const IslandGround& ground, double time, double su
     bool moved = true;
     for (int round = 0; round < most_separation_rounds && moved && (round == 0 || !is_spent()); ++round) {
         moved = false;
-        separate_pairs(substep, round, moved);
+        separate_pairs(substep, moved);
         separate_from_ground(ground, time, substep, moved);
     }
 }

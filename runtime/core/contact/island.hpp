@@ -146,7 +146,7 @@ class IslandStep {
     void solve_impulses(double time_step, std::size_t known);
     void move(double time_step, bool ends_step);
     bool find_passages(double time_step);
-    void separate_pairs(double time_step, int round, bool& moved);
+    void separate_pairs(double time_step, bool& moved);
     void separate_from_ground(const IslandGround& ground, double time, double time_step, bool& moved);
     void hold_back();
     void limit_energy(std::size_t i, double most);

@@ -233,7 +233,7 @@ bool IslandStep::find_passages(double time_step) {
     return found;
 }
 
-void IslandStep::separate_pairs(double time_step, int round, bool& moved) {
+void IslandStep::separate_pairs(double time_step, bool& moved) {
     for (const Near& near : near_) {
         Mover& a = movers_[near.first];
         Mover& b = movers_[near.second];
@@ -241,7 +241,6 @@ void IslandStep::separate_pairs(double time_step, int round, bool& moved) {
         const bool began_separated = near.began_separated();
         const double free = began_separated ? free_share(near) : 1.0;
         if (began_separated && free >= 1.0) continue;
-        if (!began_separated && round > 0) continue;
         ++work_;
         const CollisionHull first = hull_at(near.first, free);
         const CollisionHull second = hull_at(near.second, free);
@@ -253,11 +252,14 @@ void IslandStep::separate_pairs(double time_step, int round, bool& moved) {
             normal = pair_separation(first, second, near.apart).normal;
         }
         const double gap = gap_along(hull(near.first, a.place).hull, hull(near.second, b.place).hull, normal);
-        double travel = separated_to * near.apart - gap;
+        // Overlapping bodies are separated a little in each substep, and held against what presses on them.
+        double separated = separated_to * near.apart;
+        if (!began_separated) {
+            separated = std::min(separated, near.gap + std::min(most_removed_overlap * near.apart,
+                                                                time_step * separation_speed * radius));
+        }
+        const double travel = separated - gap;
         if (travel <= 0.0 || (began_separated && travel > most_shift * radius)) continue;
-        if (!began_separated)
-            travel =
-                std::min({travel, most_removed_overlap * near.apart, time_step * separation_speed * radius});
         const auto yields = [&](std::size_t i) {
             return normal.dot(bodies_[i].inverse_inertia.bottomRightCorner<3, 3>() * normal);
         };

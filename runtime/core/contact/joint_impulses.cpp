@@ -95,32 +95,11 @@ void ContactSolver::sweep(std::span<ContactBody> bodies, std::span<const Contact
                           bool backwards) noexcept {
     for (std::size_t k = 0; k < points.size(); ++k) {
         const std::size_t i = backwards ? points.size() - 1 - k : k;
-        relax(bodies, points[i], rows_[i]);
+        const Passing passing(bodies, points[i]);
+        Vector6d change;
+        if (rows_[i].relax(passing.slide, passing.turn, change).touches)
+            push_both(bodies, points[i], rows_[i], change);
     }
-}
-
-void ContactSolver::relax(std::span<ContactBody> bodies, const ContactBetween& point, Row& row) noexcept {
-    // As relax() of a single body, but for the rates, which follow the point's own impulses by its
-    // mobilities: the bodies' velocities change but once.
-    const Passing passing(bodies, point);
-    Vector6d change;
-    const double closing = row.axes.row(2).dot(passing.slide) - row.target.z();
-    const double normal = std::max(0.0, row.size[2] - closing / row.push_mobility(2, 2));
-    change[2] = normal - row.size[2];
-    if (normal == 0.0 && row.size.isZero(0.0)) return;
-    const Eigen::Vector2d slip = row.axes.topRows<2>() * passing.slide - row.target.head<2>() +
-                                 row.push_mobility.col(2).head<2>() * change[2];
-    change.head<2>() = held<2>(row.size.head<2>(), slip, row.slip_inverse,
-                               row.push_mobility(0, 0) + row.push_mobility(1, 1), row.friction * normal)
-                           .first -
-                       row.size.head<2>();
-    const Vector3d spin = row.axes * passing.turn - row.target_spin + row.spin_by_push * change.head<3>();
-    change.tail<3>() =
-        held<3>(row.size.tail<3>(), spin, row.spin_inverse, row.spin_mobility.trace(), row.lever * normal)
-            .first -
-        row.size.tail<3>();
-    row.size += change;
-    push_both(bodies, point, row, change);
 }
 
 bool ContactSolver::has_converged(std::span<const ContactBody> bodies) const noexcept {

@@ -48,14 +48,12 @@ class ContactSolver {
 
   private:
     struct Row : ContactImpulses {
-        Matrix3d spin_by_push;       ///< rates about the axes of unit impulses along them
         Vector6d before, direction;  ///< of the sweep, and of the conjugate gradients
     };
 
     void prepare(std::span<ContactBody> bodies, std::span<const ContactBetween> points, std::size_t known);
     void sweep(std::span<ContactBody> bodies, std::span<const ContactBetween> points,
                bool backwards) noexcept;
-    static void relax(std::span<ContactBody> bodies, const ContactBetween& point, Row& row) noexcept;
     void accelerate(std::span<ContactBody> bodies, std::span<const ContactBetween> points) noexcept;
     [[nodiscard]] bool has_converged(std::span<const ContactBody> bodies) const noexcept;
     void keep_passive(std::span<ContactBody> bodies, std::span<ContactBetween> points);

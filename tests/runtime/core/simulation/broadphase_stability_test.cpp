@@ -23,6 +23,7 @@ struct Heap {
     std::string name;
     Vector3d edges;
     int count;
+    double turn = 0.0;  ///< rad: of all at the start
 };
 
 /// Extremes while a heap fell together.
@@ -40,13 +41,14 @@ Seen fallen_together(const Heap& heap, double step, double duration) {
     const LoadedBody body = test::body_of(test::box(heap.edges, 2));
     const double radius = 0.5 * heap.edges.norm();
     for (int i = 0; i < heap.count; ++i) {
-        simulation.add(body, test::without_fluid(700.0),
-                       {.position = {0.01 * std::sin(1.7 * i), 0.01 * std::cos(2.3 * i),
-                                     3.0 * radius + 2.1 * radius * i},
-                        .orientation = Quaterniond(Eigen::AngleAxisd(
-                            0.7 * i, Vector3d(std::sin(0.9 * i), std::cos(1.3 * i), 0.4).normalized())),
-                        .angular_velocity = {3.0 * std::sin(2.1 * i), 2.0, 1.0}},
-                       "body-" + std::to_string(i));
+        simulation.add(
+            body, test::without_fluid(700.0),
+            {.position = {0.01 * std::sin(1.7 * i), 0.01 * std::cos(2.3 * i),
+                          3.0 * radius + 2.1 * radius * i},
+             .orientation = Quaterniond(Eigen::AngleAxisd(
+                 0.7 * i + heap.turn, Vector3d(std::sin(0.9 * i), std::cos(1.3 * i), 0.4).normalized())),
+             .angular_velocity = {3.0 * std::sin(2.1 * i), 2.0, 1.0}},
+            "body-" + std::to_string(i));
     }
     Seen seen;
     double energy = test::energy_of(simulation, gravity);
@@ -83,6 +85,17 @@ TEST(BroadphaseStability, ThinCardsThatTumbleOntoEachOtherComeToRest) {
 
 TEST(BroadphaseStability, NeedlesComeToRest) {
     expect_calm({"20 needles on one spot", {0.05, 0.0008, 0.0008}, 20}, 4.0);
+}
+
+TEST(BroadphaseStability, WhatLiesUnderAHeapDoesNotSinkIntoEachOther) {
+    // Starts with which the lowest two would, as their gap is used up.
+    for (const Heap& heap : {Heap{"20 cards, turned by 0.51", {0.06, 0.04, 0.0005}, 20, 0.51},
+                             Heap{"20 needles, turned by 1.34", {0.05, 0.0008, 0.0008}, 20, 1.34}}) {
+        const Seen seen = fallen_together(heap, 0.002, 4.0);
+        test::expect_row(
+            {heap.name, in_words(0.002), "overlap of two at the end, over R", 1e-3, seen.overlap});
+        test::expect_row({heap.name, in_words(0.002), "bodies that move at the end", 0.0, seen.moving});
+    }
 }
 
 TEST(BroadphaseStability, SixtyBlocksPouredOnOneSpotComeToRest) {
