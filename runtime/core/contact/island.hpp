@@ -118,7 +118,7 @@ class IslandStep {
         double gap;
         double apart;                  ///< m: the gap that they keep
         bool waits;                    ///< whether they collide where their paths do, not before
-        mutable FreeShare known = {};  ///< of their paths now
+        mutable FreeShare known = {};  ///< of their paths now; of overlapping bodies the paths alone
 
         /// Returns whether there was a gap when the substep began. Bodies that overlapped then are separated.
         [[nodiscard]] bool began_separated() const { return gap > 0.0; }

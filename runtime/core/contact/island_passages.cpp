@@ -241,6 +241,11 @@ void IslandStep::separate_pairs(double time_step, bool& moved) {
         const bool began_separated = near.began_separated();
         const double free = began_separated ? free_share(near) : 1.0;
         if (began_separated && free >= 1.0) continue;
+        if (!began_separated) {
+            if (near.known.first_path == a.path && near.known.second_path == b.path)
+                continue;  // nothing moved
+            near.known = {a.path, b.path, free, 0};
+        }
         ++work_;
         const CollisionHull first = hull_at(near.first, free);
         const CollisionHull second = hull_at(near.second, free);
@@ -255,8 +260,9 @@ void IslandStep::separate_pairs(double time_step, bool& moved) {
         // Overlapping bodies are separated a little in each substep, and held against what presses on them.
         double separated = separated_to * near.apart;
         if (!began_separated) {
-            separated = std::min(separated, near.gap + std::min(most_removed_overlap * near.apart,
-                                                                time_step * separation_speed * radius));
+            const double removed =
+                std::min(most_removed_overlap * near.apart, time_step * separation_speed * radius);
+            separated = std::min(separated, near.gap + removed);
         }
         const double travel = separated - gap;
         if (travel <= 0.0 || (began_separated && travel > most_shift * radius)) continue;
