@@ -156,7 +156,12 @@ class ImpulseSolver {
     /// `surfaces_move`: whether the touched surfaces have their velocity, or stand still.
     ImpulseSolver(const TouchingBody& body, const Matrix3d& to_world, bool surfaces_move,
                   const Vector6d& velocity) noexcept
-        : body_(body), to_world_(to_world), surfaces_move_(surfaces_move), velocity_(velocity) {}
+        : body_(body),
+          to_world_(to_world),
+          surfaces_move_(surfaces_move),
+          tolerance_(sinking * (velocity.tail<3>().norm() +
+                                body.contact_points.bounding_radius * velocity.head<3>().norm())),
+          velocity_(velocity) {}
 
     /// Begins with impulses that were found at the same points before.
     void begin(const FoundImpulses& found, Candidates& candidates) noexcept {
@@ -164,16 +169,14 @@ class ImpulseSolver {
             Candidate candidate;
             if (!candidates.take(one, candidate)) continue;
             add(candidate);
-            change(contacts_[count_ - 1], one.size);
+            add_impulse(contacts_[count_ - 1], one.size);
         }
     }
 
     void solve(Candidates& candidates) noexcept {
-        const double radius = body_.contact_points.bounding_radius;
-        const double tolerance = sinking * (velocity_.tail<3>().norm() + radius * velocity_.head<3>().norm());
         for (int sweep = 0; sweep < most_sweeps; ++sweep) {
             Candidate next;
-            if (count_ < most_contacts && candidates.take_fastest(velocity_, tolerance, next)) {
+            if (count_ < most_contacts && candidates.take_fastest(velocity_, tolerance_, next)) {
                 add(next);
                 sweeps_of_all_ = 0;
             } else if (has_converged() && (sweep > 0 || count_ == 0)) {
@@ -290,7 +293,7 @@ class ImpulseSolver {
                 lets_go->holds.*which = false;
                 continue;
             }
-            change(*lets_go, -lets_go->size);
+            add_impulse(*lets_go, -lets_go->size);
         }
     }
 
@@ -317,12 +320,11 @@ class ImpulseSolver {
             Vector6d step = more * (contact.size - contact.reached);
             step[2] = std::max(step[2], -contact.size[2]);
             contact.reached = contact.size;
-            change(contact, step);
+            add_impulse(contact, step);
         }
     }
 
-    /// Changes an impulse, and the velocity with it.
-    void change(Contact& contact, const Vector6d& step) noexcept {
+    void add_impulse(Contact& contact, const Vector6d& step) noexcept {
         contact.size += step;
         push(contact, step);
     }
@@ -355,6 +357,7 @@ class ImpulseSolver {
     const TouchingBody& body_;
     const Matrix3d& to_world_;
     bool surfaces_move_;
+    double tolerance_;  ///< m/s: of penetration
     std::array<Contact, most_contacts> contacts_;
     std::size_t count_ = 0;
     int sweeps_of_all_ = 0;  ///< since the last point was added
