@@ -200,8 +200,6 @@ FaceContacts::FaceContacts(const PlacedHull& hull, const Vector6d& velocity,
         next_.orientation = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()) * hull.orientation;
     }
     next_.position += offset;
-    motion_ = skew(rotation);
-    offset_ = offset;
 }
 
 bool FaceContacts::passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept {
@@ -231,6 +229,7 @@ void FaceContacts::add_corners(const ObstacleTriangle& triangle, const Vector3d&
         const Vector3d velocity =
             hull_.orientation * (velocity_.tail<3>() + velocity_.head<3>().cross(point)) - surface_.at(place);
         const double closing = -normal.dot(velocity);
+        // What all but touches touches here and now: by rounding it would arrive anywhere.
         const double until =
             gap > level * hull_.radius() && closing > 0.0 ? std::min(gap / closing, time_step_) : 0.0;
         if (!triangle.is_under(place + until * velocity, seam * hull_.radius())) return;
@@ -275,17 +274,10 @@ bool FaceContacts::add_crossings(const ObstacleTriangle& triangle, const Vector3
 }
 
 bool FaceContacts::may_touch_inside(const ObstacleTriangle& triangle) const noexcept {
-    // A point at x moves to x + stretch (x - centre of mass) + offset.
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector3d side = triangle.corners[(i + 1) % 3] - triangle.corners[i];
-        const Vector3d inwards = triangle.normal.cross(side).normalized();
-        const double limit = inwards.dot(triangle.corners[i] - hull_.position) - seam * hull_.radius();
-        const auto farthest = [&](const Vector3d& direction) {
-            return direction.dot(hull_.orientation *
-                                 farthest_point(*hull_.points, hull_.orientation.transpose() * direction));
-        };
-        if (farthest(inwards) >= limit) continue;
-        if (farthest(inwards + motion_.transpose() * inwards) + inwards.dot(offset_) < limit) return false;
+        const Vector3d outwards = side.cross(triangle.normal).normalized();
+        if (hull_.lowest(outwards) > outwards.dot(triangle.corners[i]) + margin_) return false;
     }
     return true;
 }

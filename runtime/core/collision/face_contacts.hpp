@@ -19,8 +19,8 @@ struct ContactSurfaceVelocity {
 /// itself, in the obstacle's axes. Never allocates.
 class FaceContacts {
   public:
-    /// `velocity`: of the body, (omega, v) in its axes; `margin`: m; `obstacle`: its number. Points are added
-    /// to `near`.
+    /// `velocity`: of the body, (omega, v) in its axes (rad/s, m/s); `margin`: m, at least as far as any
+    /// point moves relative to the obstacle in the step; `obstacle`: its number. Points are added to `near`.
     FaceContacts(const PlacedHull& hull, const Vector6d& velocity, const ContactSurfaceVelocity& surface,
                  double time_step, double margin, double friction, int obstacle, ContactSet& near) noexcept;
 
@@ -31,7 +31,8 @@ class FaceContacts {
     void add(const ObstacleTriangle& triangle) noexcept;
 
   private:
-    /// Returns whether any point may come to lie over a face in the step.
+    /// Returns whether any point may come to lie over a face in the step, in which none moves by more than
+    /// the margin.
     [[nodiscard]] bool may_touch_inside(const ObstacleTriangle& triangle) const noexcept;
     [[nodiscard]] bool passes_by(const ObstacleTriangle& triangle, const Separation& now) const noexcept;
     void add_point(const Vector3d& of_body, const Vector3d& normal, double gap) noexcept;
@@ -42,8 +43,6 @@ class FaceContacts {
 
     PlacedHull hull_;
     PlacedHull next_;  ///< the place after the step at the present velocity, as the obstacle sees it
-    Matrix3d motion_;  ///< of a point in the step, from its place relative to the centre of mass
-    Vector3d offset_;  ///< m: of the centre of mass in the step
     Vector6d velocity_;
     ContactSurfaceVelocity surface_;
     double time_step_, margin_, friction_;

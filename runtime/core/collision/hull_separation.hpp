@@ -49,8 +49,8 @@ struct Separation {
 /// the nearest points of simplices as in Ericson, Real-Time Collision Detection (2005), 5.1.
 Separation separation(const PlacedHull& hull, const ObstacleTriangle& triangle, double enough) noexcept;
 
-/// Returns the triangle's own plane, with the gap on the side of it where the hull reaches least to the
-/// other.
+/// Returns the triangle's own plane, with the normal towards the side on which the gap (m) is the wider, and
+/// a corner as the point of the triangle. Never throws or allocates.
 Separation plane_of_face(const PlacedHull& hull, const ObstacleTriangle& triangle) noexcept;
 
 /// Returns the gap (m) between hull and triangle along a unit vector.

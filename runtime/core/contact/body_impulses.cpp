@@ -102,10 +102,10 @@ struct Contact : ContactImpulses {
     const NearPoint* near;
     Rows along, about;  ///< J: maps a velocity to rates along and about the axes
     Held holds;
-    Vector6d step;    ///< a change of the size
-    Vector6d before;  ///< the size before a sweep
-    Vector6d swept,
-        reached;  ///< the change in the last sweep that was extrapolated from, and the size after it
+    Vector6d step;     ///< a change of the size
+    Vector6d before;   ///< the size before a sweep
+    Vector6d swept;    ///< the change in the last sweep that was extrapolated from
+    Vector6d reached;  ///< the size after it
 
     /// Visits the impulses that are solved for together: each one's place in the size, its row of J, its
     /// mobility and its rate.

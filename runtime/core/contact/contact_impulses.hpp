@@ -44,7 +44,7 @@ struct ContactImpulses {
     void invert() noexcept;
     /// Updates the impulses while those at all other points stay. `slide` and `turn`: velocity (m/s) and
     /// angular velocity (rad/s) of the first body at the point, relative to the second or to unmoved
-    /// surfaces. `change` receives the change of the impulses where they touch.
+    /// surfaces, in the frame of the axes. `change` receives the change of the size where they touch.
     Held relax(const Vector3d& slide, const Vector3d& turn, Vector6d& change) noexcept;
     /// Returns the impulse (N s) on the first body.
     [[nodiscard]] Vector3d push() const noexcept { return axes.transpose() * size.head<3>(); }

@@ -50,7 +50,7 @@ void hold_against_load(const TouchingBody& body, const ContactSet& stood, const 
                        const Vector6d& change, FoundImpulses& found, BodyState& state) noexcept {
     const Vector6d moved = 0.5 * change;
     const Vector6d held = approach.time_step * (after_impulses(body, stood, approach, moved, &found) - moved);
-    found.scale(2.0);
+    found.scale(2.0);  // moved by half of the change
     if (held.isZero(0.0)) return;
     state.position += stood.to_world() * held.tail<3>();
     const Vector3d half_rotation = 0.5 * held.head<3>();

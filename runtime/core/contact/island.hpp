@@ -70,7 +70,8 @@ inline Matrix6d in_world(const Matrix6d& of_body, const Quaterniond& orientation
 /// momentum are conserved. Where two would pass through each other at other points, the points where they
 /// first touch on their paths are added, and the impulses solved for again. Bodies that rotation still brings
 /// too close are separated, and where that does not keep two from passing through each other the substep is
-/// halved, or both stop on their paths; the energy that they gain by it is taken from their motion.
+/// halved, or both stop on their paths; the energy that they gain by it is taken from their motion, as far as
+/// they have any.
 ///
 /// The work of a step is limited for each body: to several times that of heaps, and to little where even the
 /// most substeps are too few to follow the motion, as beside a vortex that throws bodies about by many of
